@@ -1,0 +1,85 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <polyaffine/core/types.hpp>
+
+namespace cardiac {
+
+/// Segment averages in local axes against end diastole: Lagrangian (L−L₀)/L₀ normal strains, Green–Lagrange
+/// shears, and volume over end-diastolic volume; dimensionless.
+struct SegmentStrain {
+  double longitudinal = 0, circumferential = 0, radial = 0;
+  double shear_lc = 0, shear_lr = 0, shear_cr = 0;
+  double volume_ratio = 1;
+};
+
+/// The affine map of a segment about its control node, x − q = A (X − q) + t, components in the node's local
+/// axes (longitudinal, circumferential, radial); A dimensionless, t in mm.
+struct SegmentFrame {
+  polyaffine::Mat3 A = polyaffine::Mat3::Identity();
+  polyaffine::Vec3 t = polyaffine::Vec3::Zero();
+};
+
+enum class Phase { filling, isovolumetric_contraction, ejection, isovolumetric_relaxation };
+
+struct CavitySample {
+  double time_ms = 0;
+  double volume_mL = 0;
+  double pressure_mmHg = 0;
+  Phase phase = Phase::filling;
+};
+
+/// The state of all segments at one output time, in the order of BeatResult::segments.
+struct Instant {
+  double time_ms = 0;
+  std::vector<SegmentStrain> strain;
+  std::vector<SegmentFrame> frames;
+};
+
+struct SegmentInfo {
+  int number = 0;  ///< 1–17, as in the standard
+  std::string name;
+  double volume_mL = 0;
+};
+
+struct VentricleSummary {
+  std::string name;  ///< "lv" or "rv"
+  double edv_mL = 0, esv_mL = 0, sv_mL = 0, ef_percent = 0;
+  double peak_pressure_mmHg = 0, edp_mmHg = 0;
+  double ed_time_ms = 0, es_time_ms = 0;
+  std::vector<CavitySample> samples;  ///< the last beat
+};
+
+/// Global strain of the left ventricle at end systole, ED reference; percent and degrees.
+struct GlobalStrain {
+  double gls_percent = 0, gcs_percent = 0, grs_percent = 0, twist_deg = 0;
+};
+
+struct PlanItem {
+  std::string part;
+  bool built = false;
+  std::string why;
+};
+
+/// Everything that the tables, figures and pages tell of a run; no mesh in it.
+struct BeatResult {
+  std::string method;     ///< "polyaffine" or "fem"
+  bool has_beat = false;  ///< false: a prescribed pressure without circulation
+  int mesh_vertices = 0, mesh_tets = 0, dofs = 0, control_nodes = 0, integration_points = 0;
+  int beats = 0, time_steps = 0, newton_iterations = 0;
+  double simulated_time_s = 0;
+  double wall_setup_s = 0, wall_solve_s = 0, wall_output_s = 0, wall_total_s = 0;
+  std::vector<SegmentInfo> segments;
+  std::vector<Instant> instants;  ///< the last beat, time counted from its start
+  std::vector<VentricleSummary> ventricles;
+  GlobalStrain strain;
+  double min_det_F = 1, max_det_F = 1;
+  std::vector<PlanItem> plan;
+  std::vector<std::string> warnings;
+  bool completed = false;
+  std::string stop_reason;  ///< why a run that is not completed stopped, and when
+};
+
+}  // namespace cardiac

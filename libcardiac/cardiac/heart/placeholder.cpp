@@ -1,0 +1,1 @@
+#include "cardiac/heart/beat_result.hpp"
