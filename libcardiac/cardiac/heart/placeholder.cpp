@@ -1,1 +1,0 @@
-#include "cardiac/heart/beat_result.hpp"

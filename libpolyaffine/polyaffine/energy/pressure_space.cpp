@@ -1,0 +1,77 @@
+#include "polyaffine/energy/pressure_space.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include <polyaffine/core/error.hpp>
+
+namespace polyaffine {
+
+namespace {
+
+bool every_function_in_one_block(const PressureSpace& space) {
+  std::vector<char> seen(space.num_functions, 0);
+  for (const auto& block : space.blocks)
+    for (const int b : block.functions)
+      if (seen[b]++) return false;
+  return true;
+}
+
+Matrix inverse(const Matrix& M) {
+  const Eigen::LLT<Matrix> cholesky(M);
+  if (cholesky.info() != Eigen::Success || cholesky.rcond() < 1e-13)
+    throw ComputationError("pressure space: its mass matrix is singular; a pressure function has no integration points "
+                           "or depends on others");
+  return cholesky.solve(Matrix::Identity(M.rows(), M.cols()));
+}
+
+}  // namespace
+
+InverseMass::InverseMass(const PressureSpace& space, const FieldTable& table)
+    : local_(every_function_in_one_block(space)) {
+  if (!local_) dense_ = Matrix::Zero(space.num_functions, space.num_functions);
+  for (std::size_t k = 0; k < space.blocks.size(); ++k) {
+    const auto& block = space.blocks[k];
+    const auto w = table.weights.segment(table.blocks[k].first, table.blocks[k].count);
+    const Matrix M = block.values * w.asDiagonal() * block.values.transpose();
+    if (local_) {
+      functions_.push_back(block.functions);
+      blocks_.push_back(inverse(M));
+    } else {
+      dense_(block.functions, block.functions) += M;
+    }
+  }
+  if (!local_) dense_ = inverse(dense_);
+}
+
+Matrix InverseMass::apply(const Matrix& x) const {
+  if (!local_) return dense_ * x;
+  Matrix out(x.rows(), x.cols());
+  for (std::size_t k = 0; k < blocks_.size(); ++k)
+    out(functions_[k], Eigen::all) = blocks_[k] * x(functions_[k], Eigen::all);
+  return out;
+}
+
+PressureSpace block_pressure(const FieldTable& table, double bulk_modulus) {
+  PressureSpace space{bulk_modulus, static_cast<int>(table.blocks.size()), {}};
+  for (int k = 0; k < space.num_functions; ++k)
+    space.blocks.push_back({{k}, Matrix::Ones(1, table.blocks[k].count)});
+  return space;
+}
+
+PressureSpace region_pressure(const FieldTable& table, const std::vector<int>& region, int num_regions,
+                              double bulk_modulus) {
+  PressureSpace space{bulk_modulus, num_regions, {}};
+  for (const auto& block : table.blocks) {
+    std::vector<int> present(region.begin() + block.first, region.begin() + block.first + block.count);
+    std::sort(present.begin(), present.end());
+    present.erase(std::unique(present.begin(), present.end()), present.end());
+    Matrix values = Matrix::Zero(static_cast<Eigen::Index>(present.size()), block.count);
+    for (int q = 0; q < block.count; ++q)
+      values(std::lower_bound(present.begin(), present.end(), region[block.first + q]) - present.begin(), q) = 1;
+    space.blocks.push_back({present, values});
+  }
+  return space;
+}
+
+}  // namespace polyaffine

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <vector>
+
+#include <polyaffine/kinematics/field_table.hpp>
+
+namespace polyaffine {
+
+/// A space of pressures p(X) = Σ_b p_b Ψ_b(X) that carries the volumetric energy of a nearly incompressible wall:
+///   g_b = ∫ Ψ_b (J − 1),  M_bc = ∫ Ψ_b Ψ_c,  W_vol = κ/2 gᵀ M⁻¹ g,  p = κ M⁻¹ g.
+/// It is the static condensation of the mixed form with penalty κ; with one indicator function a region it is the
+/// mean dilatation method (Nagtegaal, Parks & Rice 1974; Simo, Taylor & Pister 1985). Few pressures keep the
+/// wall's volume without locking its displacement.
+struct PressureSpace {
+  /// Ψ at the points of one block of the field table.
+  struct Block {
+    std::vector<int> functions;  ///< indices b
+    Matrix values;               ///< functions × points of the block
+  };
+
+  double bulk_modulus = 0;  ///< κ, kPa
+  int num_functions = 0;
+  std::vector<Block> blocks;  ///< one for each block of the table
+};
+
+/// M⁻¹ of a pressure space. Where every function lives in one block only (one pressure an element) it is kept
+/// block by block, otherwise as one dense matrix.
+class InverseMass {
+ public:
+  InverseMass() = default;
+  /// Throws ComputationError when M is singular: a function without points, or linearly dependent functions.
+  InverseMass(const PressureSpace& space, const FieldTable& table);
+  bool local() const { return local_; }
+  const Matrix& block(std::size_t k) const { return blocks_[k]; }
+  /// M⁻¹ x, columns of x by pressure function.
+  Matrix apply(const Matrix& x) const;
+
+ private:
+  bool local_ = false;
+  std::vector<std::vector<int>> functions_;
+  std::vector<Matrix> blocks_;
+  Matrix dense_;
+};
+
+/// One constant pressure a block: with one element a block the mean dilatation of each element.
+PressureSpace block_pressure(const FieldTable& table, double bulk_modulus);
+/// One constant pressure a region; `region` gives the region index (0-based) of each point. A block whose points
+/// lie in several regions is handled.
+PressureSpace region_pressure(const FieldTable& table, const std::vector<int>& region, int num_regions,
+                              double bulk_modulus);
+
+}  // namespace polyaffine

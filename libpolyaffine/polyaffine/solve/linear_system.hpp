@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <polyaffine/core/types.hpp>
+#include <polyaffine/kinematics/field_table.hpp>
+
+namespace polyaffine {
+
+/// A symmetric tangent stiffness K that energies add their blocks to, and its factorisation. Unknowns that are
+/// fixed keep their row and column as those of the identity, so that a right-hand side of zero leaves them alone.
+class LinearSystem {
+ public:
+  virtual ~LinearSystem() = default;
+  virtual void set_zero() = 0;
+  /// Adds a (3n)² block over n functions (unknown 3a + k of function a).
+  virtual void add(const std::vector<int>& functions, const Matrix& K) = 0;
+  /// Adds a matrix over all unknowns; only for systems stored densely (std::logic_error otherwise).
+  virtual void add_dense(const Matrix& K) = 0;
+  /// False when the matrix is singular to working precision or not finite.
+  virtual bool factorise() = 0;
+  /// Solves with the last factorisation; one right-hand side a column.
+  virtual Matrix solve(const Matrix& rhs) const = 0;
+  /// True when the last factorisation was a Cholesky, so that the matrix is positive definite.
+  virtual bool positive_definite() const = 0;
+};
+
+/// Dense storage, Cholesky with LU with partial pivoting as the fallback where K is indefinite.
+std::unique_ptr<LinearSystem> dense_system(int num_unknowns, const std::vector<char>& fixed = {});
+
+/// Compressed columns with the pattern of the tables' blocks. CHOLMOD supernodal Cholesky, its symbolic analysis
+/// kept; UMFPACK where K is indefinite (Davis 2004; Chen et al. 2008).
+std::unique_ptr<LinearSystem> sparse_system(const std::vector<const FieldTable*>& tables,
+                                            const std::vector<char>& fixed = {});
+
+}  // namespace polyaffine
