@@ -40,7 +40,8 @@ void scatter(const std::vector<int>& functions, const Matrix& local, Vector& glo
     global.segment<3>(3 * functions[a]) += local.col(static_cast<Eigen::Index>(a));
 }
 
-// Runs work(k) for the blocks of a chunk in parallel and then finish(k) in order: the sums do not depend on threads.
+// Runs work(k) for the blocks of a chunk in parallel and then finish(k) in order: the sums do not depend on
+// threads.
 template <class Work, class Finish>
 void for_blocks(int count, const Work& work, const Finish& finish) {
   for (int begin = 0; begin < count; begin += kChunk) {
@@ -82,8 +83,8 @@ FieldEnergy::Kinematics FieldEnergy::kinematics(const Motion& motion) const {
   Vector g = Vector::Zero(pressure_->num_functions);
   for (std::size_t k = 0; k < table_.blocks.size(); ++k) {
     const auto& block = table_.blocks[k];
-    const Vector dilatation =
-        table_.weights.segment(block.first, block.count).array() * (kin.J.segment(block.first, block.count).array() - 1);
+    const Vector dilatation = table_.weights.segment(block.first, block.count).array() *
+                              (kin.J.segment(block.first, block.count).array() - 1);
     g(pressure_->blocks[k].functions) += pressure_->blocks[k].values * dilatation;
   }
   kin.p = pressure_->bulk_modulus * inverse_mass_.apply(g);
@@ -91,9 +92,11 @@ FieldEnergy::Kinematics FieldEnergy::kinematics(const Motion& motion) const {
   return kin;
 }
 
-// Stress (and tangent) of all laws and of the pressure at the points of a block, times the integration weights.
-void FieldEnergy::evaluate_laws(const Kinematics& kin, const Matrix& rate, const Motion& motion, std::size_t k,
-                                double* energy, Matrix& P, Matrix* A, double rate_factor) const {
+// Stress (and tangent) of all laws and of the pressure at the points of a block, times the integration
+// weights.
+void FieldEnergy::evaluate_laws(const Kinematics& kin, const Matrix& rate, const Motion& motion,
+                                std::size_t k, double* energy, Matrix& P, Matrix* A,
+                                double rate_factor) const {
   const auto& block = table_.blocks[k];
   const double* F = kin.F.col(block.first).data();
   P.setZero(9, block.count);
@@ -104,7 +107,8 @@ void FieldEnergy::evaluate_laws(const Kinematics& kin, const Matrix& rate, const
                   A ? A->data() : nullptr);
   if (viscosity_ && motion.rate) {
     if (A) *A /= rate_factor;  // the viscous tangent is added with the factor of the rate
-    viscosity_->evaluate(block.first, block.count, F, rate.col(block.first).data(), P.data(), A ? A->data() : nullptr);
+    viscosity_->evaluate(block.first, block.count, F, rate.col(block.first).data(), P.data(),
+                         A ? A->data() : nullptr);
     if (A) *A *= rate_factor;
   }
   if (pressure_) {
@@ -124,7 +128,8 @@ void FieldEnergy::evaluate_laws(const Kinematics& kin, const Matrix& rate, const
 Matrix FieldEnergy::field_rate(const Motion& motion) const {
   if (!viscosity_ || !motion.rate) return {};
   Matrix rate = Matrix::Zero(9, table_.num_points());
-  for (const auto& block : table_.blocks) add_field(block, gather(block, *motion.rate), rate.col(block.first).data());
+  for (const auto& block : table_.blocks)
+    add_field(block, gather(block, *motion.rate), rate.col(block.first).data());
   return rate;
 }
 
@@ -169,7 +174,8 @@ Matrix FieldEnergy::dilatation_rows(const Kinematics& kin, std::size_t k) const 
   return rows;
 }
 
-void FieldEnergy::add_tangent(const Motion& motion, LinearSystem& system, double scale, double rate_factor) const {
+void FieldEnergy::add_tangent(const Motion& motion, LinearSystem& system, double scale,
+                              double rate_factor) const {
   const Kinematics kin = kinematics(motion);
   const Matrix rate = rate_factor != 0 ? field_rate(motion) : Matrix();
   const Motion used{motion.c, motion.state, rate.size() > 0 ? motion.rate : nullptr};
@@ -202,6 +208,8 @@ void FieldEnergy::add_tangent(const Motion& motion, LinearSystem& system, double
   if (global) system.add_dense(scale * pressure_->bulk_modulus * D.transpose() * inverse_mass_.apply(D));
 }
 
-Vector FieldEnergy::pressure(const Vector& c) const { return kinematics({c}).p; }
+Vector FieldEnergy::pressure(const Vector& c) const {
+  return kinematics({c}).p;
+}
 
 }  // namespace polyaffine

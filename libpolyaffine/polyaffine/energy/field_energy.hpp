@@ -27,11 +27,12 @@ struct EnergyValue {
 };
 
 /// W(c) = Σ_q w_q Σ_laws W_law(M_q(c)) + W_vol, over the points of a field table, with gradient
-/// f_a = Σ_q w_q P_q row_a and tangent Σ_q w_q B_qᵀ A_q B_q. Units: µJ, mN, mN/mm for the wall; with the signed
-/// volume law on a surface table, mm³ and its derivatives.
+/// f_a = Σ_q w_q P_q row_a and tangent Σ_q w_q B_qᵀ A_q B_q. Units: µJ, mN, mN/mm for the wall; with the
+/// signed volume law on a surface table, mm³ and its derivatives.
 ///
-/// The optional pressure space adds the volumetric energy (see PressureSpace); the optional viscosity adds its
-/// stress to the gradient (it has no energy) and `rate_factor` times its derivative by the rate to the tangent.
+/// The optional pressure space adds the volumetric energy (see PressureSpace); the optional viscosity adds
+/// its stress to the gradient (it has no energy) and `rate_factor` times its derivative by the rate to the
+/// tangent.
 class FieldEnergy {
  public:
   FieldEnergy(FieldTable table, std::vector<std::shared_ptr<const Law>> laws,
@@ -43,8 +44,10 @@ class FieldEnergy {
   /// Value and gradient; when min_det ≤ 0 in a wall the numbers are not to be used.
   EnergyValue evaluate(const Motion& motion) const;
   /// Adds scale × tangent to the system. With a pressure space the dependence of the pressure on the
-  /// displacement is included; the dependence of viscous stress on c itself is not (it vanishes with the step).
-  void add_tangent(const Motion& motion, LinearSystem& system, double scale = 1, double rate_factor = 0) const;
+  /// displacement is included; the dependence of viscous stress on c itself is not (it vanishes with the
+  /// step).
+  void add_tangent(const Motion& motion, LinearSystem& system, double scale = 1,
+                   double rate_factor = 0) const;
   /// The pressure coefficients (kPa) of the pressure space at c.
   Vector pressure(const Vector& c) const;
 
@@ -52,8 +55,8 @@ class FieldEnergy {
   struct Kinematics;
   Kinematics kinematics(const Motion& motion) const;
   Matrix field_rate(const Motion& motion) const;
-  void evaluate_laws(const Kinematics& kin, const Matrix& rate, const Motion& motion, std::size_t k, double* energy,
-                     Matrix& P, Matrix* A, double rate_factor) const;
+  void evaluate_laws(const Kinematics& kin, const Matrix& rate, const Motion& motion, std::size_t k,
+                     double* energy, Matrix& P, Matrix* A, double rate_factor) const;
   Matrix dilatation_rows(const Kinematics& kin, std::size_t k) const;
 
   FieldTable table_;

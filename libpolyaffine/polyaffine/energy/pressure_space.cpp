@@ -20,8 +20,9 @@ bool every_function_in_one_block(const PressureSpace& space) {
 Matrix inverse(const Matrix& M) {
   const Eigen::LLT<Matrix> cholesky(M);
   if (cholesky.info() != Eigen::Success || cholesky.rcond() < 1e-13)
-    throw ComputationError("pressure space: its mass matrix is singular; a pressure function has no integration points "
-                           "or depends on others");
+    throw ComputationError(
+        "pressure space: its mass matrix is singular; a pressure function has no integration points "
+        "or depends on others");
   return cholesky.solve(Matrix::Identity(M.rows(), M.cols()));
 }
 
@@ -68,7 +69,8 @@ PressureSpace region_pressure(const FieldTable& table, const std::vector<int>& r
     present.erase(std::unique(present.begin(), present.end()), present.end());
     Matrix values = Matrix::Zero(static_cast<Eigen::Index>(present.size()), block.count);
     for (int q = 0; q < block.count; ++q)
-      values(std::lower_bound(present.begin(), present.end(), region[block.first + q]) - present.begin(), q) = 1;
+      values(std::lower_bound(present.begin(), present.end(), region[block.first + q]) - present.begin(), q) =
+          1;
     space.blocks.push_back({present, values});
   }
   return space;

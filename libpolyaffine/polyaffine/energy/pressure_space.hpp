@@ -6,11 +6,12 @@
 
 namespace polyaffine {
 
-/// A space of pressures p(X) = Σ_b p_b Ψ_b(X) that carries the volumetric energy of a nearly incompressible wall:
+/// A space of pressures p(X) = Σ_b p_b Ψ_b(X) that carries the volumetric energy of a nearly incompressible
+/// wall:
 ///   g_b = ∫ Ψ_b (J − 1),  M_bc = ∫ Ψ_b Ψ_c,  W_vol = κ/2 gᵀ M⁻¹ g,  p = κ M⁻¹ g.
-/// It is the static condensation of the mixed form with penalty κ; with one indicator function a region it is the
-/// mean dilatation method (Nagtegaal, Parks & Rice 1974; Simo, Taylor & Pister 1985). Few pressures keep the
-/// wall's volume without locking its displacement.
+/// It is the static condensation of the mixed form with penalty κ; with one indicator function a region it is
+/// the mean dilatation method (Nagtegaal, Parks & Rice 1974; Simo, Taylor & Pister 1985). Few pressures keep
+/// the wall's volume without locking its displacement.
 struct PressureSpace {
   /// Ψ at the points of one block of the field table.
   struct Block {
@@ -44,8 +45,8 @@ class InverseMass {
 
 /// One constant pressure a block: with one element a block the mean dilatation of each element.
 PressureSpace block_pressure(const FieldTable& table, double bulk_modulus);
-/// One constant pressure a region; `region` gives the region index (0-based) of each point. A block whose points
-/// lie in several regions is handled.
+/// One constant pressure a region; `region` gives the region index (0-based) of each point. A block whose
+/// points lie in several regions is handled.
 PressureSpace region_pressure(const FieldTable& table, const std::vector<int>& region, int num_regions,
                               double bulk_modulus);
 

@@ -8,8 +8,9 @@
 
 namespace polyaffine {
 
-/// A symmetric tangent stiffness K that energies add their blocks to, and its factorisation. Unknowns that are
-/// fixed keep their row and column as those of the identity, so that a right-hand side of zero leaves them alone.
+/// A symmetric tangent stiffness K that energies add their blocks to, and its factorisation. Unknowns that
+/// are fixed keep their row and column as those of the identity, so that a right-hand side of zero leaves
+/// them alone.
 class LinearSystem {
  public:
   virtual ~LinearSystem() = default;
@@ -29,8 +30,8 @@ class LinearSystem {
 /// Dense storage, Cholesky with LU with partial pivoting as the fallback where K is indefinite.
 std::unique_ptr<LinearSystem> dense_system(int num_unknowns, const std::vector<char>& fixed = {});
 
-/// Compressed columns with the pattern of the tables' blocks. CHOLMOD supernodal Cholesky, its symbolic analysis
-/// kept; UMFPACK where K is indefinite (Davis 2004; Chen et al. 2008).
+/// Compressed columns with the pattern of the tables' blocks. CHOLMOD supernodal Cholesky, its symbolic
+/// analysis kept; UMFPACK where K is indefinite (Davis 2004; Chen et al. 2008).
 std::unique_ptr<LinearSystem> sparse_system(const std::vector<const FieldTable*>& tables,
                                             const std::vector<char>& fixed = {});
 

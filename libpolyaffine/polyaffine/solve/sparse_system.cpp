@@ -14,7 +14,8 @@ namespace {
 // b = coupled[start[b]] < ... ; each couple is a 3×3 block, the diagonal one lower triangular.
 class SparseSystem : public LinearSystem {
  public:
-  SparseSystem(const std::vector<const FieldTable*>& tables, std::vector<char> fixed) : fixed_(std::move(fixed)) {
+  SparseSystem(const std::vector<const FieldTable*>& tables, std::vector<char> fixed)
+      : fixed_(std::move(fixed)) {
     build_pattern(tables);
     fixed_.resize(columns_.size() - 1, 0);
     cholmod_l_start(&common_);
@@ -39,8 +40,9 @@ class SparseSystem : public LinearSystem {
       for (std::size_t a = 0; a < functions.size(); ++a) {
         const int fa = functions[a];
         if (fa < fb) continue;
-        const auto rank = std::lower_bound(coupled_.begin() + start_[fb], coupled_.begin() + start_[fb + 1], fa) -
-                          (coupled_.begin() + start_[fb]);
+        const auto rank =
+            std::lower_bound(coupled_.begin() + start_[fb], coupled_.begin() + start_[fb + 1], fa) -
+            (coupled_.begin() + start_[fb]);
         for (int j = 0; j < 3; ++j) {
           double* column = values_.data() + columns_[3 * fb + j] + (rank == 0 ? -j : 3 * rank - j);
           for (int i = rank == 0 ? j : 0; i < 3; ++i)
@@ -71,8 +73,8 @@ class SparseSystem : public LinearSystem {
     Matrix x(rhs.rows(), rhs.cols());
     if (!positive_) {
       for (Eigen::Index c = 0; c < rhs.cols(); ++c)
-        umfpack_dl_solve(UMFPACK_A, full_columns_.data(), full_rows_.data(), full_values_.data(), x.col(c).data(),
-                         rhs.col(c).data(), numeric_, nullptr, nullptr);
+        umfpack_dl_solve(UMFPACK_A, full_columns_.data(), full_rows_.data(), full_values_.data(),
+                         x.col(c).data(), rhs.col(c).data(), numeric_, nullptr, nullptr);
       return x;
     }
     cholmod_dense b{};
@@ -148,11 +150,11 @@ class SparseSystem : public LinearSystem {
     if (numeric_) umfpack_dl_free_numeric(&numeric_);
     numeric_ = nullptr;
     void* symbolic = nullptr;
-    if (umfpack_dl_symbolic(n, n, full_columns_.data(), full_rows_.data(), full_values_.data(), &symbolic, nullptr,
-                            nullptr) != UMFPACK_OK)
+    if (umfpack_dl_symbolic(n, n, full_columns_.data(), full_rows_.data(), full_values_.data(), &symbolic,
+                            nullptr, nullptr) != UMFPACK_OK)
       return false;
-    const auto status = umfpack_dl_numeric(full_columns_.data(), full_rows_.data(), full_values_.data(), symbolic,
-                                           &numeric_, nullptr, nullptr);
+    const auto status = umfpack_dl_numeric(full_columns_.data(), full_rows_.data(), full_values_.data(),
+                                           symbolic, &numeric_, nullptr, nullptr);
     umfpack_dl_free_symbolic(&symbolic);
     return status == UMFPACK_OK;
   }

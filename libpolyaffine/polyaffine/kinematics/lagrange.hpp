@@ -1,0 +1,48 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include <polyaffine/kinematics/basis.hpp>
+#include <polyaffine/mesh/tet_mesh.hpp>
+
+namespace polyaffine {
+
+/// Moves a point of the boundary onto the true surface with that label; for curved quadratic elements.
+using SurfaceProjector = std::function<Vec3(const Vec3& point, int label)>;
+
+/// Linear (4-node) or quadratic (10-node) isoparametric tetrahedra. Quadratic nodes follow the vertices of
+/// the mesh: one at the middle of each edge, in an element in the order 01, 12, 02, 03, 13, 23 (that of VTK).
+class LagrangeBasis : public Basis {
+ public:
+  /// Throws InputError when order is not 1 or 2, or a projected midpoint turns an element over.
+  LagrangeBasis(const TetMesh& mesh, int order, const SurfaceProjector& project = {});
+
+  int order() const { return order_; }
+  const Points& nodes() const { return nodes_; }                 ///< mm
+  const Eigen::MatrixXi& elements() const { return elements_; }  ///< 4 or 10 nodes a column
+
+  int num_functions() const override { return static_cast<int>(nodes_.cols()); }
+  BasisSample sample(int tet, const Vec4& barycentric) const override;
+
+  /// Values of the element's shape functions and their derivatives by the barycentric coordinates (n × 4).
+  void shape(const Vec4& barycentric, Vector& N, Eigen::MatrixX4d& derivative) const;
+  /// dX/dξ with ξ the last three barycentric coordinates; its determinant is six times the local volume.
+  Mat3 jacobian(int tet, const Vec4& barycentric) const;
+  /// Value of a scalar field given at the nodes.
+  double interpolate(const Vector& nodal, int tet, const Vec4& barycentric) const;
+
+  /// Gauss points exact to `degree` on straight elements, one block an element.
+  WallPoints wall_points(int degree) const;
+  /// Gauss points on the boundary faces with one of the labels, one block a face.
+  SurfacePoints surface_points(const TetMesh& mesh, const std::vector<int>& labels, int degree) const;
+  /// Nodes on the boundary faces with one of the labels, sorted.
+  std::vector<int> surface_nodes(const TetMesh& mesh, const std::vector<int>& labels) const;
+
+ private:
+  int order_;
+  Points nodes_;
+  Eigen::MatrixXi elements_;
+};
+
+}  // namespace polyaffine

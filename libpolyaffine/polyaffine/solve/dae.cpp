@@ -1,0 +1,223 @@
+#include "polyaffine/solve/dae.hpp"
+
+#include <ida/ida.h>
+#include <ida/ida_ls.h>
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_linearsolver.h>
+#include <sundials/sundials_matrix.h>
+
+#include <polyaffine/core/error.hpp>
+
+namespace polyaffine {
+namespace {
+
+using ConstMap = Eigen::Map<const Vector>;
+
+ConstMap view(N_Vector v) {
+  return {N_VGetArrayPointer(v), N_VGetLength(v)};
+}
+
+// The system keeps its own factorisation; SUNDIALS sees a matrix and a direct solver without content.
+SUNMatrix_ID matrix_id(SUNMatrix) {
+  return SUNMATRIX_CUSTOM;
+}
+int matrix_zero(SUNMatrix) {
+  return 0;
+}
+void matrix_destroy(SUNMatrix A) {
+  SUNMatFreeEmpty(A);
+}
+SUNMatrix matrix_clone(SUNMatrix A);
+
+SUNMatrix make_matrix(SUNContext context) {
+  SUNMatrix A = SUNMatNewEmpty(context);
+  A->content = nullptr;
+  A->ops->getid = matrix_id;
+  A->ops->zero = matrix_zero;
+  A->ops->destroy = matrix_destroy;
+  A->ops->clone = matrix_clone;
+  return A;
+}
+
+SUNMatrix matrix_clone(SUNMatrix A) {
+  return make_matrix(A->sunctx);
+}
+
+SUNLinearSolver_Type solver_type(SUNLinearSolver) {
+  return SUNLINEARSOLVER_DIRECT;
+}
+int solver_setup(SUNLinearSolver, SUNMatrix) {
+  return 0;
+}
+int solver_solve(SUNLinearSolver S, SUNMatrix, N_Vector x, N_Vector b, realtype) {
+  Vector out;
+  if (!static_cast<DaeSystem*>(S->content)->solve(view(b), out) || !out.allFinite()) return 1;
+  Eigen::Map<Vector>(N_VGetArrayPointer(x), out.size()) = out;
+  return 0;
+}
+int solver_free(SUNLinearSolver S) {
+  S->content = nullptr;
+  SUNLinSolFreeEmpty(S);
+  return 0;
+}
+
+SUNLinearSolver make_solver(DaeSystem& system, SUNContext context) {
+  SUNLinearSolver S = SUNLinSolNewEmpty(context);
+  S->content = &system;
+  S->ops->gettype = solver_type;
+  S->ops->setup = solver_setup;
+  S->ops->solve = solver_solve;
+  S->ops->free = solver_free;
+  return S;
+}
+
+// What IDA hands back to the callbacks.
+struct UserData {
+  DaeSystem* system = nullptr;
+  DaeOptions options;
+};
+
+int residual(realtype t, N_Vector y, N_Vector rate, N_Vector out, void* user) {
+  Vector r;
+  if (!static_cast<UserData*>(user)->system->residual(t, view(y), view(rate), r) || !r.allFinite()) return 1;
+  Eigen::Map<Vector>(N_VGetArrayPointer(out), r.size()) = r;
+  return 0;
+}
+
+int jacobian(realtype t, realtype alpha, N_Vector y, N_Vector rate, N_Vector, SUNMatrix, void* user, N_Vector,
+             N_Vector, N_Vector) {
+  return static_cast<UserData*>(user)->system->factorise(t, view(y), view(rate), alpha) ? 0 : 1;
+}
+
+int error_weights(N_Vector y, N_Vector weights, void* user) {
+  const DaeOptions& o = static_cast<UserData*>(user)->options;
+  Eigen::Map<Vector> w(N_VGetArrayPointer(weights), N_VGetLength(weights));
+  w = (o.relative_tolerance * view(y).array().abs() + o.absolute_tolerance.array()).inverse();
+  if (o.error_weight.size() > 0) w.array() *= o.error_weight.array();
+  return 0;
+}
+
+void check(int flag, const char* what) {
+  if (flag < 0)
+    throw ComputationError(std::string("time integration: ") + what + " failed (IDA code " +
+                           std::to_string(flag) + ")");
+}
+
+std::string describe(int flag) {
+  switch (flag) {
+    case IDA_ERR_FAIL:
+      return "the error test could not be met with the smallest step";
+    case IDA_CONV_FAIL:
+      return "Newton did not converge with the smallest step";
+    case IDA_LSETUP_FAIL:
+      return "the tangent is singular with the smallest step";
+    case IDA_REP_RES_ERR:
+      return "the wall turns inside out (det F not positive) with the smallest step";
+    case IDA_TOO_MUCH_ACC:
+      return "the tolerance is below rounding error";
+    default:
+      return "IDA code " + std::to_string(flag);
+  }
+}
+
+}  // namespace
+
+struct DaeIntegrator::Implementation {
+  SUNContext context = nullptr;
+  void* ida = nullptr;
+  N_Vector y = nullptr, rate = nullptr;
+  SUNMatrix matrix = nullptr;
+  SUNLinearSolver solver = nullptr;
+  UserData user;
+  double t = 0;
+  Vector y_out, rate_out;
+  std::string failure;
+
+  ~Implementation() {
+    if (ida) IDAFree(&ida);
+    if (solver) SUNLinSolFree(solver);
+    if (matrix) SUNMatDestroy(matrix);
+    for (N_Vector v : {y, rate})
+      if (v) N_VDestroy(v);
+    if (context) SUNContext_Free(&context);
+  }
+};
+
+DaeIntegrator::DaeIntegrator(DaeSystem& system, const DaeOptions& options, double t, const Vector& y,
+                             const Vector& rate)
+    : impl_(std::make_unique<Implementation>()) {
+  auto& m = *impl_;
+  m.user = {&system, options};
+  m.t = t;
+  m.y_out = y;
+  m.rate_out = rate;
+  check(SUNContext_Create(nullptr, &m.context), "SUNContext_Create");
+  const auto n = static_cast<sunindextype>(system.size());
+  m.y = N_VNew_Serial(n, m.context);
+  m.rate = N_VNew_Serial(n, m.context);
+  Eigen::Map<Vector>(N_VGetArrayPointer(m.y), n) = y;
+  Eigen::Map<Vector>(N_VGetArrayPointer(m.rate), n) = rate;
+  m.ida = IDACreate(m.context);
+  check(IDAInit(m.ida, residual, t, m.y, m.rate), "IDAInit");
+  check(IDASetUserData(m.ida, &m.user), "IDASetUserData");
+  check(IDASetErrFile(m.ida, nullptr), "IDASetErrFile");
+  check(IDAWFtolerances(m.ida, error_weights), "IDAWFtolerances");
+  m.matrix = make_matrix(m.context);
+  m.solver = make_solver(system, m.context);
+  check(IDASetLinearSolver(m.ida, m.solver, m.matrix), "IDASetLinearSolver");
+  check(IDASetJacFn(m.ida, jacobian), "IDASetJacFn");
+  check(IDASetMaxOrd(m.ida, options.max_order), "IDASetMaxOrd");
+  if (options.max_step > 0) check(IDASetMaxStep(m.ida, options.max_step), "IDASetMaxStep");
+  if (options.first_step > 0) check(IDASetInitStep(m.ida, options.first_step), "IDASetInitStep");
+}
+
+DaeIntegrator::~DaeIntegrator() = default;
+
+DaeStatus DaeIntegrator::step(double limit) {
+  auto& m = *impl_;
+  check(IDASetStopTime(m.ida, limit), "IDASetStopTime");
+  double reached = m.t;
+  const int flag = IDASolve(m.ida, limit, &reached, m.y, m.rate, IDA_ONE_STEP);
+  if (flag < 0) {
+    m.failure = describe(flag);
+    return DaeStatus::failed;
+  }
+  m.t = reached;
+  m.y_out = view(m.y);
+  m.rate_out = view(m.rate);
+  return DaeStatus::reached;
+}
+
+void DaeIntegrator::interpolate(double t, Vector& y) const {
+  auto& m = *impl_;
+  N_Vector out = N_VClone(m.y);
+  check(IDAGetDky(m.ida, t, 0, out), "IDAGetDky");
+  y = view(out);
+  N_VDestroy(out);
+}
+
+double DaeIntegrator::time() const {
+  return impl_->t;
+}
+const Vector& DaeIntegrator::y() const {
+  return impl_->y_out;
+}
+const Vector& DaeIntegrator::rate() const {
+  return impl_->rate_out;
+}
+const std::string& DaeIntegrator::failure() const {
+  return impl_->failure;
+}
+
+DaeCounters DaeIntegrator::counters() const {
+  DaeCounters c;
+  IDAGetNumSteps(impl_->ida, &c.steps);
+  IDAGetNumResEvals(impl_->ida, &c.residuals);
+  IDAGetNumNonlinSolvIters(impl_->ida, &c.newton_iterations);
+  IDAGetNumJacEvals(impl_->ida, &c.factorisations);
+  IDAGetNumErrTestFails(impl_->ida, &c.error_test_failures);
+  IDAGetNumNonlinSolvConvFails(impl_->ida, &c.convergence_failures);
+  return c;
+}
+
+}  // namespace polyaffine
