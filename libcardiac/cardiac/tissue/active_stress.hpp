@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cardiac/tissue/fibre_axes.hpp>
+#include <polyaffine/material/law.hpp>
+
+namespace cardiac {
+
+/// Active tension of the fibres as a second Piola–Kirchhoff stress that is added as it is (Land et al. 2015,
+/// Aróstica et al. 2025):
+///   S = τ (f⊗f + n_c (s⊗s + n⊗n)),  W = τ/2 (C:f⊗f − 1 + n_c (C:(s⊗s + n⊗n) − 2)),
+/// with τ in kPa read from the state of the point and held fixed when differentiating.
+class ActiveStress : public polyaffine::Law {
+ public:
+  /// `cross_fibre_fraction` n_c, dimensionless, 0 to 1. Throws InputError, also for axes that are not
+  /// orthonormal.
+  explicit ActiveStress(FibreAxes axes, double cross_fibre_fraction = 0);
+  /// Throws ComputationError when `state` has no tension for one of the points.
+  void evaluate(int first, int count, const double* F, polyaffine::PointState tension_kPa, double* W,
+                double* P, double* A) const override;
+
+ private:
+  FibreAxes axes_;
+  double cross_fibre_fraction_;
+};
+
+}  // namespace cardiac

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+namespace polyaffine {
+
+#ifdef __AVX__
+inline constexpr int kLanes = 4;
+#else
+inline constexpr int kLanes = 2;
+#endif
+
+/// The same number of `kLanes` points side by side in one SIMD register.
+using Pack = double __attribute__((vector_size(8 * kLanes)));
+
+/// `kLanes` 3×3 matrices, column-major like the arrays of a Law.
+struct Mat3Pack {
+  Pack m[9];
+  Pack& operator()(int row, int column) { return m[row + 3 * column]; }
+  const Pack& operator()(int row, int column) const { return m[row + 3 * column]; }
+};
+
+/// Reads base[0], base[stride], … one per lane. Lanes from `lanes` on repeat the last valid one, so that the
+/// end of a batch computes on ordinary numbers.
+inline Pack gather(const double* base, int stride, int lanes) {
+  Pack v;
+  for (int lane = 0; lane < kLanes; ++lane) v[lane] = base[stride * (lane < lanes ? lane : lanes - 1)];
+  return v;
+}
+
+/// Adds lane l of `v` to base[l · stride] for the first `lanes` lanes.
+inline void scatter_add(double* base, int stride, int lanes, const Pack& v) {
+  for (int lane = 0; lane < lanes; ++lane) base[stride * lane] += v[lane];
+}
+
+inline Pack broadcast(double value) {
+  return Pack{} + value;
+}
+
+/// e^x to about 1 ulp: x = n ln 2 + r, |r| ≤ ln 2 / 2, Taylor polynomial of degree 13 for e^r (remainder
+/// below 5·10⁻¹⁸). Below x = −708 the result stays at e^−708, above 709.4 it is infinite.
+inline Pack exp(Pack x) {
+  using Bits = std::int64_t __attribute__((vector_size(8 * kLanes)));
+  constexpr double kRound =
+      6755399441055744.0;  // 1.5·2⁵²: adding it leaves the nearest integer in the low bits
+  const Pack lowest = broadcast(-708), highest = broadcast(710);
+  x = x < lowest ? lowest : x;
+  x = x > highest ? highest : x;
+  const Pack shifted = x * 1.4426950408889634 + kRound;
+  const Pack n = shifted - kRound;
+  const Pack r = (x - n * 6.93147180369123816490e-01) - n * 1.90821492927058770002e-10;
+  constexpr double kInverseFactorial[] = {
+      1.0 / 6227020800, 1.0 / 479001600, 1.0 / 39916800, 1.0 / 3628800, 1.0 / 362880, 1.0 / 40320, 1.0 / 5040,
+      1.0 / 720,        1.0 / 120,       1.0 / 24,       1.0 / 6,       0.5,          1.0,         1.0};
+  Pack sum = broadcast(kInverseFactorial[0]);
+#pragma GCC unroll 13
+  for (int k = 1; k < 14; ++k) sum = sum * r + kInverseFactorial[k];
+  const Bits exponent = ((Bits)shifted - (Bits)broadcast(kRound) + 1023) << 52;
+  return sum * (Pack)exponent;
+}
+
+inline Pack log(const Pack& x) {
+  Pack y;
+  for (int lane = 0; lane < kLanes; ++lane) y[lane] = std::log(x[lane]);
+  return y;
+}
+
+inline Pack cbrt(const Pack& x) {
+  Pack y;
+  for (int lane = 0; lane < kLanes; ++lane) y[lane] = std::cbrt(x[lane]);
+  return y;
+}
+
+}  // namespace polyaffine
