@@ -1,0 +1,162 @@
+#include "cardiac/anatomy/coordinates.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include <polyaffine/core/error.hpp>
+#include <polyaffine/core/monotone_cubic.hpp>
+#include <polyaffine/geometry/laplace.hpp>
+
+namespace cardiac {
+
+using polyaffine::InputError;
+using polyaffine::Mat3;
+using polyaffine::Matrix;
+using polyaffine::Points;
+using polyaffine::Vec3;
+using polyaffine::Vec4;
+using polyaffine::Vector;
+
+namespace {
+
+void require_label(const polyaffine::TetMesh& mesh, int label, const char* name) {
+  const auto& labels = mesh.boundary_labels();
+  if (std::find(labels.begin(), labels.end(), label) == labels.end())
+    throw InputError(std::string("mesh: no boundary triangle has the label ") + std::to_string(label) +
+                     " of the surface \"" + name + "\"; give the labels of the mesh in [mesh]");
+}
+
+Vec3 mean_normal(const polyaffine::TetMesh& mesh, int label) {
+  Vec3 sum = Vec3::Zero();
+  const polyaffine::Triangles faces = mesh.surface({label});
+  for (Eigen::Index f = 0; f < faces.cols(); ++f) {
+    const Vec3 a = mesh.points().col(faces(0, f));
+    sum += (mesh.points().col(faces(1, f)) - a).cross(mesh.points().col(faces(2, f)) - a);
+  }
+  return sum.normalized();
+}
+
+}  // namespace
+
+VentricularCoordinates::VentricularCoordinates(const polyaffine::TetMesh& mesh, const SurfaceLabels& labels,
+                                               const AnatomyOptions& options)
+    : space_(std::make_shared<polyaffine::LagrangeBasis>(mesh, 2)) {
+  require_label(mesh, labels.endo, "endo");
+  require_label(mesh, labels.epi, "epi");
+  require_label(mesh, labels.base, "base");
+  find_axis(mesh, labels, options);
+  solve_transmural(mesh, labels);
+  solve_apicobasal(mesh, labels);
+  build_axes();
+}
+
+void VentricularCoordinates::find_axis(const polyaffine::TetMesh& mesh, const SurfaceLabels& labels,
+                                       const AnatomyOptions& options) {
+  const std::vector<int> endo = mesh.surface_points({labels.endo});
+  const std::vector<int> base = mesh.surface_points({labels.base});
+  std::vector<int> rim;
+  std::set_intersection(endo.begin(), endo.end(), base.begin(), base.end(), std::back_inserter(rim));
+  if (rim.size() < 3)
+    throw InputError("mesh: the endocardium and the base share " + std::to_string(rim.size()) +
+                     " points, expected the closed rim of an open cavity");
+  axis_ = options.long_axis ? options.long_axis->normalized() : mean_normal(mesh, labels.base);
+  base_centre_ = mesh.points()(Eigen::all, rim).rowwise().mean();
+  for (const int p : endo)
+    cavity_length_ = std::max(cavity_length_, -axis_.dot(mesh.points().col(p) - base_centre_));
+
+  const Vec3 across = options.anterior - options.anterior.dot(axis_) * axis_;
+  if (!(across.norm() > 0.05 * options.anterior.norm()))  // about 3°: below it the direction says nothing
+    throw InputError(
+        "anatomy.anterior_direction: is parallel to the long axis, expected a direction across it");
+  anterior_ = across.normalized();
+  septal_ = -axis_.cross(anterior_);
+}
+
+void VentricularCoordinates::solve_transmural(const polyaffine::TetMesh& mesh, const SurfaceLabels& labels) {
+  std::vector<polyaffine::NodeValue> values;
+  for (const int n : space_->surface_nodes(mesh, {labels.endo})) values.push_back({n, 0.0});
+  for (const int n : space_->surface_nodes(mesh, {labels.epi})) values.push_back({n, 1.0});
+  t_ = polyaffine::solve_laplace(*space_, values);
+}
+
+void VentricularCoordinates::solve_apicobasal(const polyaffine::TetMesh& mesh, const SurfaceLabels& labels) {
+  // A singular line needs a core with nodes in it: half an edge about the axis, in the wall below the cavity.
+  const double edge = std::cbrt(6 * std::sqrt(2.0) * mesh.volume() / mesh.num_tets());
+  std::vector<polyaffine::NodeValue> values;
+  for (double core = 0.5 * edge; values.empty(); core *= 1.2)
+    for (int n = 0; n < space_->num_functions(); ++n) {
+      const Vec3 d = space_->nodes().col(n) - base_centre_;
+      const double height = d.dot(axis_);
+      if (height < -0.9 * cavity_length_ && (d - height * axis_).norm() < core) values.push_back({n, 0.0});
+    }
+  for (const int n : space_->surface_nodes(mesh, {labels.base})) values.push_back({n, 1.0});
+  const Vector raw = polyaffine::solve_laplace(*space_, values);
+
+  constexpr int kLevels = 40;
+  Vector volume = Vector::Zero(kLevels);
+  Vector flux = Vector::Zero(kLevels);
+  const polyaffine::WallPoints points = space_->wall_points(2);
+  for (std::size_t q = 0; q < points.tet.size(); ++q) {
+    const auto k = static_cast<Eigen::Index>(q);
+    const auto s = space_->sample(points.tet[q], points.barycentric.col(k));
+    const Vector nodal = raw(s.functions);
+    const int level = std::clamp(static_cast<int>(kLevels * s.N.dot(nodal)), 0, kLevels - 1);
+    volume[level] += points.weights[k];
+    flux[level] += points.weights[k] * (s.gradient * nodal).norm();
+  }
+  std::vector<double> at{0.0}, length{0.0};
+  for (int level = 0; level < kLevels; ++level) {
+    if (flux[level] <= 0) continue;
+    const double next = (level + 1.0) / kLevels;
+    length.push_back(length.back() + (next - at.back()) * volume[level] / flux[level]);
+    at.push_back(next);
+  }
+  arc_length_ = length.back();
+  const polyaffine::MonotoneCubic arc(at, length);
+  u_.resize(raw.size());
+  for (Eigen::Index n = 0; n < raw.size(); ++n) u_[n] = std::clamp(arc(raw[n]).first / arc_length_, 0.0, 1.0);
+}
+
+void VentricularCoordinates::build_axes() {
+  const Points radial = polyaffine::recovered_gradient(*space_, t_);
+  axes_.resize(9, radial.cols());
+  for (Eigen::Index n = 0; n < radial.cols(); ++n) {
+    const Vec3 e_r = radial.col(n).normalized();
+    Vec3 e_c = axis_.cross(e_r);
+    if (e_c.norm() < 1e-6) e_c = septal_;  // on the axis itself no direction is distinguished
+    e_c.normalize();
+    axes_.col(n) << e_r.cross(e_c).normalized(), e_c, e_r;
+  }
+}
+
+CoordinateSample VentricularCoordinates::sample(int tet, const Vec4& barycentric) const {
+  const auto s = space_->sample(tet, barycentric);
+  CoordinateSample out;
+  out.u = s.N.dot(u_(s.functions));
+  out.t = s.N.dot(t_(s.functions));
+  out.grad_u = s.gradient * u_(s.functions);
+  out.grad_t = s.gradient * t_(s.functions);
+  const Matrix nodal = axes_(Eigen::all, s.functions);
+  out.Q = (nodal * s.N).reshaped(3, 3);
+  for (int J = 0; J < 3; ++J) out.dQ[J] = (nodal * s.gradient.row(J).transpose()).reshaped(3, 3);
+
+  const Vec3 d = space_->nodes()(Eigen::all, s.functions) * s.N - base_centre_;
+  const double x = d.dot(anterior_);
+  const double y = d.dot(septal_);
+  const double r2 = std::max(x * x + y * y, 1e-12);
+  out.psi = std::atan2(y, x);
+  out.grad_psi = (x * septal_ - y * anterior_) / r2;
+  return out;
+}
+
+double VentricularCoordinates::long_axis_height(const Vec3& X) const {
+  return 1 + axis_.dot(X - base_centre_) / cavity_length_;
+}
+
+double VentricularCoordinates::angle(const Vec3& X) const {
+  const Vec3 d = X - base_centre_;
+  return std::atan2(d.dot(septal_), d.dot(anterior_));
+}
+
+}  // namespace cardiac

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+namespace polyaffine {
+
+/// Once continuously differentiable cubic through (x_k, y_k), x ascending, without overshoot between the
+/// points (Fritsch & Carlson 1980 with the three-point slopes of Fritsch & Butland 1984); straight beyond the
+/// ends.
+class MonotoneCubic {
+ public:
+  MonotoneCubic() = default;
+  /// Throws std::invalid_argument with fewer than two points or x not ascending.
+  MonotoneCubic(std::vector<double> x, std::vector<double> y);
+  /// Value and slope.
+  std::pair<double, double> operator()(double x) const;
+
+ private:
+  std::vector<double> x_, y_, slope_;
+};
+
+}  // namespace polyaffine
