@@ -150,6 +150,10 @@ CoordinateSample VentricularCoordinates::sample(int tet, const Vec4& barycentric
   return out;
 }
 
+Vec3 VentricularCoordinates::position(int tet, const Vec4& barycentric) const {
+  return space_->nodes()(Eigen::all, space_->elements().col(tet).head<4>()) * barycentric;
+}
+
 double VentricularCoordinates::long_axis_height(const Vec3& X) const {
   return 1 + axis_.dot(X - base_centre_) / cavity_length_;
 }

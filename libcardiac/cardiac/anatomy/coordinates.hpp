@@ -43,17 +43,21 @@ class VentricularCoordinates {
                          const AnatomyOptions& options);
 
   CoordinateSample sample(int tet, const polyaffine::Vec4& barycentric) const;
+  polyaffine::Vec3 position(int tet, const polyaffine::Vec4& barycentric) const;  ///< mm
   /// Height along the long axis, 0 at the apex of the cavity and 1 at the base.
   double long_axis_height(const polyaffine::Vec3& X) const;
   /// Rotational coordinate of a position.
   double angle(const polyaffine::Vec3& X) const;
 
   const polyaffine::Vec3& axis() const { return axis_; }
+  const polyaffine::Vec3& anterior() const { return anterior_; }  ///< unit, across the axis
   const polyaffine::Vec3& base_centre() const { return base_centre_; }
   double cavity_length() const { return cavity_length_; }      ///< mm, apex of the cavity to the base
   double arc_length() const { return arc_length_; }            ///< mm, along the wall, apex to base
   const polyaffine::Vector& apicobasal() const { return u_; }  ///< at the vertices, then the edge midpoints
   const polyaffine::Vector& transmural() const { return t_; }
+  /// Axes at the vertices, then the edge midpoints: nine numbers a column, [e_l e_c e_r].
+  const polyaffine::Matrix& axes() const { return axes_; }
 
  private:
   void find_axis(const polyaffine::TetMesh& mesh, const SurfaceLabels& labels, const AnatomyOptions& options);

@@ -1,0 +1,90 @@
+#include "polyaffine/quadrature/cell_rule.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include <polyaffine/quadrature/moment_compression.hpp>
+
+namespace polyaffine {
+namespace {
+
+// Legendre polynomials to degree n at x in [0, 1].
+Vector legendre(int n, double x) {
+  Vector p(n + 1);
+  const double s = 2 * x - 1;
+  p[0] = 1;
+  if (n > 0) p[1] = s;
+  for (int k = 1; k < n; ++k) p[k + 1] = ((2 * k + 1) * s * p[k] - k * p[k - 1]) / (k + 1);
+  return p;
+}
+
+std::vector<std::array<int, 3>> exponents(const CellDegree& degree) {
+  std::vector<std::array<int, 3>> out;
+  const auto share = [&](int k, int e) {
+    return degree[k] > 0 ? static_cast<double>(e) / degree[k] : e > 0 ? 2.0 : 0.0;
+  };
+  for (int a = 0; a <= degree[0]; ++a)
+    for (int b = 0; b <= degree[1]; ++b)
+      for (int c = 0; c <= degree[2]; ++c)
+        if (share(0, a) + share(1, b) + share(2, c) <= 1 + 1e-12) out.push_back({a, b, c});
+  return out;
+}
+
+std::vector<std::vector<int>> members(const std::vector<int>& cell) {
+  std::vector<std::vector<int>> out(cell.empty() ? 0 : *std::max_element(cell.begin(), cell.end()) + 1);
+  for (std::size_t p = 0; p < cell.size(); ++p) out[cell[p]].push_back(static_cast<int>(p));
+  std::erase_if(out, [](const auto& m) { return m.empty(); });
+  return out;
+}
+
+WallPoints select(const WallPoints& candidates, const std::vector<std::vector<int>>& chosen,
+                  const std::vector<Vector>& weights) {
+  WallPoints out;
+  std::vector<int> all;
+  out.starts.push_back(0);
+  for (const auto& points : chosen) {
+    all.insert(all.end(), points.begin(), points.end());
+    out.starts.push_back(static_cast<int>(all.size()));
+  }
+  out.barycentric = candidates.barycentric(Eigen::all, all);
+  out.weights.resize(static_cast<Eigen::Index>(all.size()));
+  for (std::size_t k = 0; k < chosen.size(); ++k)
+    out.weights.segment(out.starts[k], weights[k].size()) = weights[k];
+  for (const int p : all) out.tet.push_back(candidates.tet[p]);
+  return out;
+}
+
+}  // namespace
+
+WallPoints compress_cells(const WallPoints& candidates, const std::vector<int>& cell,
+                          const Points& coordinates, const CellDegree& degree) {
+  const auto powers = exponents(degree);
+  std::vector<std::vector<int>> chosen;
+  std::vector<Vector> weights;
+  for (const auto& points : members(cell)) {
+    Matrix features(static_cast<Eigen::Index>(powers.size()), static_cast<Eigen::Index>(points.size()));
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      const Vec3 x = coordinates.col(points[p]);
+      const std::array<Vector, 3> L{legendre(degree[0], x[0]), legendre(degree[1], x[1]),
+                                    legendre(degree[2], x[2])};
+      for (std::size_t m = 0; m < powers.size(); ++m)
+        features(static_cast<Eigen::Index>(m), static_cast<Eigen::Index>(p)) =
+            L[0][powers[m][0]] * L[1][powers[m][1]] * L[2][powers[m][2]];
+    }
+    const CompressedRule rule = compress_moments(features, candidates.weights(points));
+    std::vector<int> kept;
+    for (const int p : rule.points) kept.push_back(points[p]);
+    chosen.push_back(std::move(kept));
+    weights.push_back(rule.weights);
+  }
+  return select(candidates, chosen, weights);
+}
+
+WallPoints group_cells(const WallPoints& candidates, const std::vector<int>& cell) {
+  const auto chosen = members(cell);
+  std::vector<Vector> weights;
+  for (const auto& points : chosen) weights.emplace_back(candidates.weights(points));
+  return select(candidates, chosen, weights);
+}
+
+}  // namespace polyaffine

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <polyaffine/kinematics/basis.hpp>
+
+namespace polyaffine {
+
+/// Highest degrees of the polynomials in three cell coordinates that a compressed rule keeps exactly: all
+/// P_a(x)P_b(y)P_c(z) with a/degree[0] + b/degree[1] + c/degree[2] ≤ 1.
+using CellDegree = std::array<int, 3>;
+
+/// Few points a cell instead of many: candidate points (Gauss points of a mesh) that belong to cell[p], with
+/// coordinates (3 × candidates, each 0 to 1 in the cell), are replaced, cell by cell, by at most as many of
+/// them as there are polynomials of the degree, with positive weights that integrate these polynomials over
+/// the candidates exactly; so the volume and the first moments of every cell are true. Block k of the result
+/// is the k-th cell that has points. (Tchakaloff; Sommariva & Vianello 2015.)
+WallPoints compress_cells(const WallPoints& candidates, const std::vector<int>& cell,
+                          const Points& coordinates, const CellDegree& degree);
+
+/// The candidates themselves, sorted into one block a cell.
+WallPoints group_cells(const WallPoints& candidates, const std::vector<int>& cell);
+
+}  // namespace polyaffine
