@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cardiac/core/units.hpp>
+
+namespace cardiac {
+
+/// A valve (or a valve in series with a resistance): a resistance one way, closed the other, without a kink.
+struct Valve {
+  double resistance_kPa_ms_per_mm3 = 0;
+  double smoothing_kPa = 0.05 * kPa_per_mmHg;  ///< ε, the pressure over which it opens and closes
+};
+
+struct ValveFlow {
+  double flow_mm3_per_ms;
+  double slope;  ///< ∂q/∂Δp in mm³/(ms·kPa), positive
+};
+
+/// q(Δp) = (√(Δp² + ε²) + Δp) / (2R), with Δp the pressure before minus the pressure behind the valve.
+///
+/// Always positive and increasing; Δp/R when open, ε/(2R) at Δp = 0, and ε²/(4R|Δp|) when closed: with ε 0.05
+/// mmHg and R 0.01 mmHg·s/mL a closed valve under 100 mmHg leaks 0.0006 mL/s, forward. Evaluated without
+/// cancellation on both sides. R and ε must be positive.
+ValveFlow valve_flow(const Valve& valve, double pressure_drop_kPa);
+
+/// Whether a valve counts as open: Δp > −10 ε, that is a flow above ε/(40R). The margin keeps a valve through
+/// which filling has come to rest (Δp → 0⁻) open until the pressure really turns.
+bool is_open(const Valve& valve, double pressure_drop_kPa);
+
+}  // namespace cardiac

@@ -1,0 +1,152 @@
+#include "polyaffine/solve/ode.hpp"
+
+#include <cvode/cvode.h>
+#include <nvector/nvector_serial.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+
+#include <cstdlib>
+#include <exception>
+#include <memory>
+#include <stdexcept>
+#include <type_traits>
+
+namespace polyaffine {
+namespace {
+
+struct Context {
+  Context() {
+    if (SUNContext_Create(nullptr, &handle) != 0) throw std::runtime_error("SUNDIALS: no context");
+  }
+  ~Context() { SUNContext_Free(&handle); }
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+  SUNContext handle = nullptr;
+};
+
+struct FreeCvode {
+  void operator()(void* memory) const { CVodeFree(&memory); }
+};
+template <class Handle, auto free_function>
+using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, decltype([](Handle h) { free_function(h); })>;
+
+struct Callback {
+  const OdeRate* rate;
+  Vector state, derivative;
+  std::exception_ptr thrown;
+};
+
+constexpr int kUnrecoverable = -1, kRecoverable = 1;
+
+int evaluate_rate(double time, N_Vector state, N_Vector derivative, void* user) {
+  auto& callback = *static_cast<Callback*>(user);
+  const auto size = callback.state.size();
+  callback.state = Eigen::Map<const Vector>(N_VGetArrayPointer(state), size);
+  try {
+    (*callback.rate)(time, callback.state, callback.derivative);
+  } catch (...) {
+    callback.thrown = std::current_exception();
+    return kUnrecoverable;
+  }
+  if (!callback.derivative.allFinite()) return kRecoverable;
+  Eigen::Map<Vector>(N_VGetArrayPointer(derivative), size) = callback.derivative;
+  return 0;
+}
+
+void silence(int, const char*, const char*, char*, void*) {}
+
+OdeStop stop_reason(int flag) {
+  switch (flag) {
+    case CV_TOO_MUCH_WORK:
+      return OdeStop::too_many_steps;
+    case CV_ERR_FAILURE:
+      return OdeStop::error_test_failed;
+    case CV_CONV_FAILURE:
+      return OdeStop::convergence_failed;
+    default:
+      return OdeStop::other_failure;
+  }
+}
+
+std::string describe(int flag, double time) {
+  char* const name = CVodeGetReturnFlagName(flag);
+  std::string text = "CVODE stopped at time " + std::to_string(time) + ": " + name;
+  std::free(name);
+  return text;
+}
+
+void require(bool condition, const char* expected) {
+  if (!condition) throw std::invalid_argument(std::string("solve_ode: expected ") + expected);
+}
+
+void check_arguments(double start_time, const Vector& initial, const Vector& times,
+                     const OdeOptions& options) {
+  require(initial.size() > 0 && initial.allFinite(), "a finite, non-empty initial state");
+  require(times.size() > 0 && times.allFinite() && times[0] >= start_time, "output times from the start on");
+  for (Eigen::Index i = 1; i < times.size(); ++i) require(times[i] > times[i - 1], "increasing output times");
+  require(options.relative_tolerance > 0 && options.absolute_tolerance > 0, "positive tolerances");
+  require(options.max_step >= 0 && options.max_steps > 0, "a positive step limit");
+}
+
+}  // namespace
+
+OdeSolution solve_ode(const OdeRate& rate, double start_time, const Vector& initial, const Vector& times,
+                      const OdeOptions& options) {
+  check_arguments(start_time, initial, times, options);
+  const auto size = initial.size();
+  const Context context;
+  const Owned<N_Vector, N_VDestroy> state(N_VNew_Serial(size, context.handle));
+  Eigen::Map<Vector> y(N_VGetArrayPointer(state.get()), size);
+  y = initial;
+
+  Callback callback{&rate, initial, Vector::Zero(size), nullptr};
+  const std::unique_ptr<void, FreeCvode> memory(CVodeCreate(CV_BDF, context.handle));
+  void* const cvode = memory.get();
+  const Owned<SUNMatrix, SUNMatDestroy> matrix(SUNDenseMatrix(size, size, context.handle));
+  const Owned<SUNLinearSolver, SUNLinSolFree> solver(
+      SUNLinSol_Dense(state.get(), matrix.get(), context.handle));
+  if (CVodeInit(cvode, evaluate_rate, start_time, state.get()) != CV_SUCCESS ||
+      CVodeSStolerances(cvode, options.relative_tolerance, options.absolute_tolerance) != CV_SUCCESS ||
+      CVodeSetUserData(cvode, &callback) != CV_SUCCESS ||
+      CVodeSetErrHandlerFn(cvode, silence, nullptr) != CV_SUCCESS ||
+      CVodeSetMaxStep(cvode, options.max_step) != CV_SUCCESS ||
+      CVodeSetStopTime(cvode, times[times.size() - 1]) != CV_SUCCESS ||
+      CVodeSetLinearSolver(cvode, solver.get(), matrix.get()) != CVLS_SUCCESS) {
+    throw std::runtime_error("solve_ode: CVODE could not be set up");
+  }
+
+  OdeSolution solution;
+  solution.states.resize(size, times.size());
+  solution.time_reached = start_time;
+  Eigen::Index reached = 0;
+  for (; reached < times.size(); ++reached) {
+    if (times[reached] > start_time) {
+      CVodeGetNumSteps(cvode, &solution.steps);
+      if (solution.steps >= options.max_steps) {
+        solution.stop = OdeStop::too_many_steps;
+        solution.message = describe(CV_TOO_MUCH_WORK, solution.time_reached);
+        break;
+      }
+      CVodeSetMaxNumSteps(cvode, options.max_steps - solution.steps);
+      const int flag = CVode(cvode, times[reached], state.get(), &solution.time_reached, CV_NORMAL);
+      if (callback.thrown) std::rethrow_exception(callback.thrown);
+      if (flag < 0) {
+        solution.stop = stop_reason(flag);
+        solution.message = describe(flag, solution.time_reached);
+        break;
+      }
+    }
+    solution.states.col(reached) = y;
+  }
+  solution.states.conservativeResize(size, reached);
+  long solver_evaluations = 0;
+  CVodeGetNumSteps(cvode, &solution.steps);
+  CVodeGetNumRhsEvals(cvode, &solution.rate_evaluations);
+  CVodeGetNumLinRhsEvals(cvode, &solver_evaluations);
+  solution.rate_evaluations += solver_evaluations;
+  CVodeGetNumJacEvals(cvode, &solution.jacobian_evaluations);
+  CVodeGetNumErrTestFails(cvode, &solution.error_test_failures);
+  return solution;
+}
+
+}  // namespace polyaffine

@@ -1,0 +1,47 @@
+#include <gtest/gtest.h>
+
+#include <cardiac/circulation/valve.hpp>
+#include <cmath>
+
+namespace cardiac {
+namespace {
+
+const Valve valve{.resistance_kPa_ms_per_mm3 = 0.01 * resistance_per_mmHg_s_per_mL};
+
+TEST(Valve, OpensLikeAResistanceAndClosesWithoutLeak) {
+  const double open = valve_flow(valve, 5 * kPa_per_mmHg).flow_mm3_per_ms / flow_per_mL_per_s;
+  EXPECT_NEAR(open, 500, 0.02);  // 5 mmHg / 0.01; the rest is ε²/(4RΔp) = 0.0125 mL/s
+  const double closed = valve_flow(valve, -100 * kPa_per_mmHg).flow_mm3_per_ms / flow_per_mL_per_s;
+  EXPECT_NEAR(closed, 6.25e-4, 1e-9);  // 0.05² / (4 · 0.01 · 100)
+  const double balanced = valve_flow(valve, 0).flow_mm3_per_ms / flow_per_mL_per_s;
+  EXPECT_NEAR(balanced, 2.5, 1e-12);  // 0.05 / (2 · 0.01)
+}
+
+TEST(Valve, FlowIsPositiveAndIncreasing) {
+  double last = 0;
+  for (double drop = -1e6; drop < 1e6; drop = drop + std::max(1e-4, 0.01 * std::abs(drop))) {
+    const ValveFlow q = valve_flow(valve, drop);
+    EXPECT_GT(q.flow_mm3_per_ms, last) << drop;
+    EXPECT_GT(q.slope, 0) << drop;
+    last = q.flow_mm3_per_ms;
+  }
+}
+
+TEST(Valve, SlopeIsTheDerivative) {
+  for (const double drop : {-20.0, -1.0, -0.01, -1e-3, 0.0, 1e-3, 0.01, 1.0, 20.0}) {
+    const double h = 1e-5 * std::max(std::abs(drop), valve.smoothing_kPa);
+    const double difference =
+        (valve_flow(valve, drop + h).flow_mm3_per_ms - valve_flow(valve, drop - h).flow_mm3_per_ms) / (2 * h);
+    const double slope = valve_flow(valve, drop).slope;
+    EXPECT_NEAR(slope / difference, 1, 1e-8) << drop;  // h² and rounding/h, both relative, at h = 1e-5
+  }
+}
+
+TEST(Valve, CountsAsOpenUntilThePressureReallyTurns) {
+  EXPECT_TRUE(is_open(valve, 1));
+  EXPECT_TRUE(is_open(valve, -0.4 * kPa_per_mmHg));
+  EXPECT_FALSE(is_open(valve, -0.6 * kPa_per_mmHg));
+}
+
+}  // namespace
+}  // namespace cardiac
