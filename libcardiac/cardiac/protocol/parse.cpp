@@ -112,6 +112,13 @@ std::filesystem::path mesh_path(const Protocol& protocol) {
   return (protocol.directory / protocol.mesh.file.value()).lexically_normal();
 }
 
+void check_mesh_file(const Protocol& protocol) {
+  if (protocol.mesh.file && !std::filesystem::is_regular_file(mesh_path(protocol))) {
+    throw InputError("mesh.file: no such file " + mesh_path(protocol).string() +
+                     "; expected a tetrahedral mesh (.vtu, .vtk), its path relative to the protocol file");
+  }
+}
+
 Protocol parse_protocol(const std::string& text, const std::filesystem::path& source,
                         const std::vector<std::string>& overrides) {
   std::vector<Entry> entries = read_entries(text, source.string());

@@ -33,6 +33,9 @@ struct Protocol {
 /// Path of the mesh file; only with a mesh.file.
 std::filesystem::path mesh_path(const Protocol& protocol);
 
+/// Throws polyaffine::InputError when the mesh.file of the protocol does not exist.
+void check_mesh_file(const Protocol& protocol);
+
 /// Reads a protocol file (.toml). `overrides` are texts `key.path=value`, the value in TOML (a bare word is
 /// taken as text); they replace what the file says and pass the same checks. Throws polyaffine::InputError,
 /// naming file, line or option, key, what was found, what was expected and the unit.
