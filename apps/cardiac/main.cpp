@@ -1,0 +1,47 @@
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include <polyaffine/core/error.hpp>
+
+#include "explain_command.hpp"
+#include "run_command.hpp"
+#include "schema_command.hpp"
+
+namespace {
+
+enum ExitStatus { kDone = 0, kFailed = 1, kWrongInput = 2 };
+
+int report(const std::exception& error, ExitStatus status) {
+  std::cerr << "cardiac: error: " << error.what() << '\n';
+  return status;
+}
+
+int run_program(int argc, char** argv) {
+  CLI::App app("Reduced cardiac mechanics: a heart beat on a ventricle mesh.", "cardiac");
+  app.set_version_flag("--version", "cardiac " CARDIAC_VERSION);
+  app.require_subcommand(1);
+  cardiac::app::add_run_command(app);
+  cardiac::app::add_schema_command(app);
+  cardiac::app::add_explain_command(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
+    report(error, kWrongInput);
+    std::cerr << "Run `cardiac --help` or `cardiac SUBCOMMAND --help` for the usage.\n";
+    return kWrongInput;
+  }
+  return kDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run_program(argc, argv);
+  } catch (const polyaffine::InputError& error) {
+    return report(error, kWrongInput);
+  } catch (const std::exception& error) {
+    return report(error, kFailed);
+  }
+}

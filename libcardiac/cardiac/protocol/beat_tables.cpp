@@ -1,0 +1,227 @@
+#include <cardiac/protocol/key_binding.hpp>
+
+namespace cardiac::protocol {
+namespace {
+
+Range above_zero(double high) {
+  return {0, high, true};
+}
+
+Table activation_table() {
+  TableBuilder table("activation", "When the muscle is excited.", &Protocol::activation);
+  table
+      .key("mode", &Activation::mode,
+           {.meaning =
+                "uniform: everywhere at onset_ms; sites: a wave from the sites, the eikonal equation in "
+                "the metric of the fibres"})
+      .key("onset_ms", &Activation::onset_ms,
+           {.unit = "ms", .range = {0, 10000}, .meaning = "time of the first excitation in the beat"})
+      .key("site_segments", &Activation::site_segments,
+           {.range = {1, 17},
+            .meaning = "AHA segments whose endocardial centre is a site",
+            .used_with = "mode",
+            .used_values = {"sites"}})
+      .key("sites_mm", &Activation::sites_mm,
+           {.unit = "mm",
+            .meaning = "further sites [x, y, z]; the nearest vertex of the mesh counts",
+            .used_with = "mode",
+            .used_values = {"sites"}})
+      .key("conduction_along_fibre_mm_per_ms", &Activation::conduction_along_fibre_mm_per_ms,
+           {.unit = "mm/ms",
+            .range = above_zero(10),
+            .meaning = "conduction velocity along the fibre",
+            .source = "Niederer 2011: 0.60–0.62",
+            .used_with = "mode",
+            .used_values = {"sites"}})
+      .key("conduction_across_fibre_mm_per_ms", &Activation::conduction_across_fibre_mm_per_ms,
+           {.unit = "mm/ms",
+            .range = above_zero(10),
+            .meaning = "conduction velocity across the fibre",
+            .source = "Niederer 2011: 0.19–0.23",
+            .used_with = "mode",
+            .used_values = {"sites"}});
+  return table.build();
+}
+
+Table contraction_table() {
+  const std::string source = "Aróstica 2025";
+  TableBuilder table("contraction", "Active tension along the fibre.", &Protocol::contraction);
+  table
+      .key("model", &Contraction::model,
+           {.meaning = "simplified Bestel–Clément–Sorine: dτ/dt = −|a| τ + σ0 max(a, 0), a between "
+                       "activation_rate_per_s and −relaxation_rate_per_s",
+            .source = "Bestel, Clément, Sorine 2001; Aróstica 2025"})
+      .key("contractility_kPa", &Contraction::contractility_kPa,
+           {.unit = "kPa",
+            .range = {0, 2000},
+            .meaning = "asymptotic tension σ0 (see model)",
+            .source = source})
+      .key("activation_rate_per_s", &Contraction::activation_rate_per_s,
+           {.unit = "1/s", .range = above_zero(1000), .meaning = "rate a while active", .source = source})
+      .key("relaxation_rate_per_s", &Contraction::relaxation_rate_per_s,
+           {.unit = "1/s", .range = above_zero(1000), .meaning = "rate −a while relaxing", .source = source})
+      .key("activation_duration_ms", &Contraction::activation_duration_ms,
+           {.unit = "ms",
+            .range = above_zero(5000),
+            .meaning = "time from excitation to the onset of relaxation",
+            .source = source + ": 484 − 160 ms"})
+      .key("switch_width_ms", &Contraction::switch_width_ms,
+           {.unit = "ms",
+            .range = above_zero(500),
+            .meaning = "width w of the switches ½ (1 ± tanh(t/w)) between the two rates",
+            .source = source})
+      .key("cross_fibre_fraction", &Contraction::cross_fibre_fraction,
+           {.range = {0, 1}, .meaning = "tension across the fibre as a fraction of the tension along it"});
+  return table.build();
+}
+
+Table cavities_table() {
+  TableBuilder table("cavities", "Prescribed pressure in the cavity; not together with [circulation].",
+                     &Protocol::cavities);
+  table.key("pressure_mmHg", &Cavities::pressure_mmHg,
+            {.unit = "mmHg",
+             .range = {0, 1000},
+             .meaning = "pressure that is reached from zero, in time.load_steps steps",
+             .required = true});
+  return table.build();
+}
+
+Table circulation_table() {
+  const std::string unit = "mmHg·s/mL";
+  const std::string source = "three-element windkessel, Westerhof 1969";
+  TableBuilder table("circulation",
+                     "Valves, arteries and veins around the cavity: a three-element windkessel.",
+                     &Protocol::circulation);
+  table
+      .key("filling_pressure_mmHg", &Circulation::filling_pressure_mmHg,
+           {.unit = "mmHg", .range = {0, 100}, .meaning = "pressure before the mitral valve (atrium)"})
+      .key("mitral_resistance_mmHg_s_per_mL", &Circulation::mitral_resistance_mmHg_s_per_mL,
+           {.unit = unit, .range = above_zero(100), .meaning = "resistance of the open mitral valve"})
+      .key("aortic_valve_resistance_mmHg_s_per_mL", &Circulation::aortic_valve_resistance_mmHg_s_per_mL,
+           {.unit = unit,
+            .range = above_zero(100),
+            .meaning = "resistance of the open aortic valve",
+            .source = "Regazzoni 2022: 0.0075"})
+      .key("characteristic_resistance_mmHg_s_per_mL", &Circulation::characteristic_resistance_mmHg_s_per_mL,
+           {.unit = unit,
+            .range = {0, 100},
+            .meaning = "resistance between the aortic valve and the compliance (proximal aorta)",
+            .source = source})
+      .key("peripheral_resistance_mmHg_s_per_mL", &Circulation::peripheral_resistance_mmHg_s_per_mL,
+           {.unit = unit,
+            .range = above_zero(1000),
+            .meaning = "resistance of the small vessels, from the compliance to the veins",
+            .source = source})
+      .key("compliance_mL_per_mmHg", &Circulation::compliance_mL_per_mmHg,
+           {.unit = "mL/mmHg",
+            .range = above_zero(100),
+            .meaning = "compliance of the arteries",
+            .source = "Regazzoni 2022: 1.372"})
+      .key("venous_pressure_mmHg", &Circulation::venous_pressure_mmHg,
+           {.unit = "mmHg", .range = {0, 100}, .meaning = "pressure behind the small vessels"})
+      .key("initial_aortic_pressure_mmHg", &Circulation::initial_aortic_pressure_mmHg,
+           {.unit = "mmHg",
+            .range = {0, 300},
+            .meaning = "pressure of the compliance when the first beat begins"});
+  return table.build();
+}
+
+Table boundary_table() {
+  TableBuilder table("boundary", "How the ventricle is held.", &Protocol::boundary);
+  table
+      .key("base", &Boundary::base,
+           {.meaning = "clamped: the base does not move; spring: springs in all directions"})
+      .key("clamp", &Boundary::clamp,
+           {.meaning = "how the clamped base is held: projection (exactly) or stiff_springs (for comparison)",
+            .used_with = "base",
+            .used_values = {"clamped"}})
+      .key("base_stiffness_kPa_per_mm", &Boundary::base_stiffness_kPa_per_mm,
+           {.unit = "kPa/mm",
+            .range = above_zero(1e6),
+            .meaning = "spring of the base per reference area, all directions",
+            .source = "Aróstica 2025: 1e5 Pa/m",
+            .used_with = "base",
+            .used_values = {"spring"}})
+      .key("epicardial_stiffness_kPa_per_mm", &Boundary::epicardial_stiffness_kPa_per_mm,
+           {.unit = "kPa/mm",
+            .range = {0, 1e6},
+            .meaning = "spring of the pericardium per reference area, along the reference normal; 0: none"});
+  return table.build();
+}
+
+Table time_table() {
+  TableBuilder table("time", "Beats, steps and tolerances.", &Protocol::time);
+  table
+      .key("heart_rate_bpm", &Time::heart_rate_bpm,
+           {.unit = "1/min",
+            .range = {20, 300},
+            .meaning = "heart rate; a beat lasts 60000/heart_rate_bpm ms"})
+      .key("max_beats", &Time::max_beats,
+           {.range = {1, 200}, .meaning = "beats after which the run ends even if the loop has not closed"})
+      .key("limit_cycle_tolerance_percent", &Time::limit_cycle_tolerance_percent,
+           {.unit = "%",
+            .range = above_zero(100),
+            .meaning = "the beats end when two of them differ by less than this part of the stroke volume"})
+      .key("relative_tolerance", &Time::relative_tolerance,
+           {.range = {1e-10, 0.1}, .meaning = "relative tolerance of the time integration"})
+      .key("absolute_tolerance_mm", &Time::absolute_tolerance_mm,
+           {.unit = "mm",
+            .range = {1e-10, 10},
+            .meaning = "absolute tolerance of the displacement in the time integration"})
+      .key("absolute_tolerance_mmHg", &Time::absolute_tolerance_mmHg,
+           {.unit = "mmHg",
+            .range = {1e-10, 10},
+            .meaning = "absolute tolerance of pressures in the time integration"})
+      .key("max_step_ms", &Time::max_step_ms,
+           {.unit = "ms", .range = above_zero(1000), .meaning = "longest time step"})
+      .key(
+          "load_steps", &Time::load_steps,
+          {.range = {1, 1000}, .meaning = "steps in which a static load is raised; cut further where needed"})
+      .key("duration_ms", &Time::duration_ms,
+           {.unit = "ms",
+            .range = above_zero(1e6),
+            .meaning = "simulated time of a contraction without circulation (with one: by beats)"});
+  return table.build();
+}
+
+Table output_table() {
+  TableBuilder table("output", "What is written, and how often.", &Protocol::output);
+  table
+      .key("interval_ms", &Output::interval_ms,
+           {.unit = "ms", .range = above_zero(1e5), .meaning = "time between two rows or meshes"})
+      .key("tables", &Output::tables, {.meaning = "strain, affine and cavity tables (.csv)"})
+      .key("figures", &Output::figures,
+           {.meaning = "bull's-eyes, strain curves, pressure–volume loop, report"})
+      .key("mesh_series", &Output::mesh_series, {.meaning = "deformed meshes (.vtu, .pvd)"});
+  return table.build();
+}
+
+Table region_table() {
+  TableBuilder table("region", "Segments that differ from the rest: scar, ischaemia, late activation.",
+                     &Protocol::regions);
+  table.key("name", &RegionOverride::name, {.meaning = "what the region is called in reports"})
+      .key("segments", &RegionOverride::segments,
+           {.range = {1, 17},
+            .meaning = "AHA segments of the region; each belongs to one region at most",
+            .required = true})
+      .key("tension_factor", &RegionOverride::tension_factor,
+           {.range = {0, 10}, .meaning = "factor on contraction.contractility_kPa; 0: does not contract"})
+      .key("stiffness_factor", &RegionOverride::stiffness_factor,
+           {.range = above_zero(1000), .meaning = "factor on the moduli of the passive law"})
+      .key("activation_delay_ms", &RegionOverride::activation_delay_ms,
+           {.unit = "ms", .range = {0, 2000}, .meaning = "added to the time of excitation"})
+      .key("border_width_percent", &RegionOverride::border_width_percent,
+           {.unit = "%",
+            .range = {0, 100},
+            .meaning = "width of the border, in parts of the segment's size, over which the factors blend"});
+  return table.build();
+}
+
+}  // namespace
+
+std::vector<Table> beat_tables() {
+  return {activation_table(), contraction_table(), cavities_table(), circulation_table(),
+          boundary_table(),   time_table(),        output_table(),   region_table()};
+}
+
+}  // namespace cardiac::protocol

@@ -1,0 +1,178 @@
+#include <algorithm>
+#include <cmath>
+
+#include <cardiac/protocol/describe.hpp>
+#include <cardiac/protocol/key.hpp>
+#include <cardiac/protocol/nearest_key.hpp>
+#include <polyaffine/core/error.hpp>
+
+namespace cardiac {
+namespace {
+
+using namespace protocol;
+
+Json number_schema(const Key& key, const char* type) {
+  Json schema = {{"type", type}};
+  const Range& range = key.facts.range;
+  if (std::isfinite(range.low)) schema[range.without_low ? "exclusiveMinimum" : "minimum"] = range.low;
+  if (std::isfinite(range.high)) schema["maximum"] = range.high;
+  return schema;
+}
+
+Json list_of(Json items) {
+  return {{"type", "array"}, {"items", std::move(items)}};
+}
+
+Json type_schema(const Key& key) {
+  const auto vector = [&] {
+    Json schema = list_of(number_schema(key, "number"));
+    schema["minItems"] = schema["maxItems"] = 3;
+    return schema;
+  };
+  switch (key.kind) {
+    case Kind::number:
+      return number_schema(key, "number");
+    case Kind::whole:
+      return number_schema(key, "integer");
+    case Kind::flag:
+      return {{"type", "boolean"}};
+    case Kind::text:
+      return {{"type", "string"}};
+    case Kind::choice:
+      return {{"type", "string"}, {"enum", key.choices}};
+    case Kind::numbers:
+      return list_of(number_schema(key, "number"));
+    case Kind::wholes:
+      return list_of(number_schema(key, "integer"));
+    case Kind::texts:
+      return list_of({{"type", "string"}});
+    case Kind::vector:
+      return vector();
+    case Kind::vectors:
+      return list_of(vector());
+  }
+  return {};
+}
+
+/// Null for a key that is required or has none.
+Json default_of(const Key& key) {
+  return key.facts.required ? Json() : key.get(default_protocol(), 0);
+}
+
+Json key_schema(const Table& table, const Key& key) {
+  Json schema = type_schema(key);
+  const std::string condition = condition_text(table, key);
+  schema["description"] = key.facts.meaning + (condition.empty() ? "" : " (goes with " + condition + ")");
+  if (!key.facts.unit.empty()) schema["unit"] = key.facts.unit;
+  if (!key.facts.source.empty()) schema["source"] = key.facts.source;
+  if (const Json value = default_of(key); !value.is_null()) schema["default"] = value;
+  return schema;
+}
+
+Json table_schema(const Table& table) {
+  Json schema = {{"type", "object"},
+                 {"description", table.meaning},
+                 {"properties", Json::object()},
+                 {"additionalProperties", false}};
+  for (const Key& key : table.keys) {
+    schema["properties"][key.name] = key_schema(table, key);
+    if (key.facts.required) schema["required"].push_back(key.name);
+  }
+  return table.list ? list_of(std::move(schema)) : schema;
+}
+
+std::string line(const std::string& word, const std::string& text) {
+  return text.empty() ? "" : "  " + word + std::string(10 - word.size(), ' ') + text + '\n';
+}
+
+std::string value_text(const Json& value) {
+  return value.is_number_float() ? number_text(value.get<double>()) : value.dump();
+}
+
+std::string explain_key(const Table& table, const Key& key) {
+  const Json value = default_of(key);
+  const std::string unit = key.facts.unit.empty() ? "" : ' ' + key.facts.unit;
+  std::string standard = value.is_null() ? "none" : value_text(value) + (value.is_number() ? unit : "");
+  if (value.is_null() && !key.facts.absent.empty()) standard += ": " + key.facts.absent;
+  if (key.facts.required) standard = "none: the key is required";
+  const bool number =
+      key.kind != Kind::flag && key.kind != Kind::text && key.kind != Kind::texts && key.kind != Kind::choice;
+  return table.name + '.' + key.name + '\n' + line("meaning", key.facts.meaning) +
+         line("expected", expectation(key)) +
+         line("unit", number && key.facts.unit.empty() ? "dimensionless" : key.facts.unit) +
+         line("default", standard) + line("range", range_text(key)) +
+         line("goes with", condition_text(table, key)) + line("source", key.facts.source);
+}
+
+std::string explain_table(const Table& table) {
+  std::size_t width = 0;
+  for (const Key& key : table.keys) width = std::max(width, key.name.size());
+  std::string text =
+      (table.list ? "[[" + table.name + "]]  " : '[' + table.name + "]  ") + table.meaning + '\n';
+  if (table.optional) text += "  Left out: not built.\n";
+  for (const Key& key : table.keys) {
+    text += "  " + key.name + std::string(width + 2 - key.name.size(), ' ') + key.facts.meaning + '\n';
+  }
+  return text;
+}
+
+}  // namespace
+
+Json protocol_schema() {
+  Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+                 {"title", "cardiac protocol"},
+                 {"type", "object"},
+                 {"properties", Json::object()},
+                 {"required", Json::array()},
+                 {"additionalProperties", false}};
+  for (const Table& table : tables()) {
+    schema["properties"][table.name] = table_schema(table);
+    if (table.required) schema["required"].push_back(table.name);
+  }
+  return schema;
+}
+
+Json resolved_json(const Protocol& protocol) {
+  Json resolved = Json::object();
+  for (const Table& table : tables()) {
+    Json entries = Json::array();
+    for (std::size_t index = 0; index < table.count(protocol); ++index) {
+      Json entry = Json::object();
+      for (const Key& key : table.keys) {
+        const Json value = key.get(protocol, index);
+        if (!value.is_null() && plays_a_part(table, key, protocol, index)) entry[key.name] = value;
+      }
+      entries.push_back(std::move(entry));
+    }
+    if (!entries.empty()) resolved[table.name] = table.list ? entries : entries[0];
+  }
+  return resolved;
+}
+
+std::string explain(const std::string& path) {
+  const auto dot = path.find('.');
+  const std::string first = path.substr(0, dot);
+  if (dot == std::string::npos) {
+    if (const Table* table = find_table(first)) return explain_table(*table);
+    std::string text;
+    for (const Table& table : tables()) {
+      if (const Key* key = find_key(table, first)) text += explain_key(table, *key);
+    }
+    if (!text.empty()) return text;
+  } else if (const Table* table = find_table(first)) {
+    if (const Key* key = find_key(*table, path.substr(dot + 1))) return explain_key(*table, *key);
+  }
+  const std::string nearest =
+      dot == std::string::npos ? nearest_key("", path) : nearest_key(first, path.substr(dot + 1));
+  throw polyaffine::InputError(path + ": unknown key; the nearest known key is " + nearest);
+}
+
+std::vector<std::string> key_paths() {
+  std::vector<std::string> paths;
+  for (const Table& table : tables()) {
+    for (const Key& key : table.keys) paths.push_back(table.name + '.' + key.name);
+  }
+  return paths;
+}
+
+}  // namespace cardiac

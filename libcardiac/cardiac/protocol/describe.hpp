@@ -1,0 +1,26 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include <cardiac/protocol/protocol.hpp>
+
+namespace cardiac {
+
+/// JSON schema (draft 2020-12) of a protocol: one property a key, with type, range, default and, beside the
+/// standard words, "unit" and "source". Unknown properties are not allowed.
+nlohmann::json protocol_schema();
+
+/// The protocol with every default filled in: the tables that are present, without the keys that play no
+/// part. Each table reads back as the same protocol.
+nlohmann::json resolved_json(const Protocol& protocol);
+
+/// Meaning, type, unit, default, range and source of a key (`table.key`, or the key alone where only one
+/// table has it); the keys of a table for its name. Throws polyaffine::InputError that names the nearest key.
+std::string explain(const std::string& path);
+
+/// Paths of all keys, in the order of the protocol file.
+std::vector<std::string> key_paths();
+
+}  // namespace cardiac

@@ -1,0 +1,213 @@
+#include <cardiac/protocol/key_binding.hpp>
+
+namespace cardiac::protocol {
+namespace {
+
+Range above_zero(double high) {
+  return {0, high, true};
+}
+
+Table mesh_table() {
+  TableBuilder table("mesh", "Geometry of the ventricle: a mesh file or an idealised shape.",
+                     &Protocol::mesh);
+  table
+      .key("file", &Mesh::file,
+           {.meaning = "tetrahedral mesh (.vtu, .vtk), path relative to the protocol file",
+            .absent = "an idealised shape is meshed"})
+      .key("length_unit", &Mesh::length_unit,
+           {.meaning = "length unit of the coordinates in the mesh file; required with file, never guessed",
+            .used_with = "file"})
+      .key("shape", &Mesh::shape,
+           {.meaning =
+                "idealised truncated ellipsoid: human_lv (human-sized left ventricle) or land_ellipsoid "
+                "(endocardial semi-axes 7 and 17 mm, epicardial 10 and 20 mm, base at z = 5 mm)",
+            .source = "land_ellipsoid: Land 2015, problem 2",
+            .absent = "the mesh is read from file"})
+      .key("size_mm", &Mesh::size_mm,
+           {.unit = "mm",
+            .range = above_zero(50),
+            .meaning = "target edge length of the tetrahedra of an idealised shape",
+            .absent = "the shape's own size",
+            .used_with = "shape"})
+      .key("label_array", &Mesh::label_array,
+           {.meaning = "array of the mesh file that holds the surface labels", .used_with = "file"})
+      .key("endo_label", &Mesh::endo_label,
+           {.range = {0, 1e6}, .meaning = "label of the endocardium (cavity side)", .used_with = "file"})
+      .key("epi_label", &Mesh::epi_label,
+           {.range = {0, 1e6}, .meaning = "label of the epicardium (outer side)", .used_with = "file"})
+      .key("base_label", &Mesh::base_label,
+           {.range = {0, 1e6}, .meaning = "label of the base (valve plane)", .used_with = "file"});
+  return table.build_required();
+}
+
+Table anatomy_table() {
+  TableBuilder table("anatomy", "How the ventricle lies and is divided into segments.", &Protocol::anatomy);
+  table
+      .key("scheme", &Anatomy::scheme,
+           {.meaning = "division into segments: 17 of the left ventricle", .source = "AHA, Cerqueira 2002"})
+      .key("long_axis", &Anatomy::long_axis,
+           {.meaning = "direction from apex to base in mesh coordinates, of any length",
+            .absent = "from the apex to the centre of the base, found on the mesh"})
+      .key(
+          "anterior_direction", &Anatomy::anterior_direction,
+          {.meaning = "direction from the long axis to the anterior wall in mesh coordinates, of any length; "
+                      "its part across the long axis counts, so it must not be parallel to it"});
+  return table.build();
+}
+
+Table reduction_table() {
+  TableBuilder table("reduction", "Unknowns and integration of the mechanics.", &Protocol::reduction);
+  table
+      .key("method", &Reduction::method,
+           {.meaning = "polyaffine: one control frame a segment, enriched; fem: full-order finite elements"})
+      .key(
+          "preset", &Reduction::preset,
+          {.meaning = "set of enrichment and pressure_space: fast {tt; segment_depth}, accurate {tt, lt, ct, "
+                      "ltt, ctt; segment_bilinear}",
+           .source =
+               "measured on the Land ellipsoid: a few per cent of displacement error, and about half of "
+               "it"})
+      .key("weights", &Reduction::weights,
+           {.meaning =
+                "influence of a segment: tents (piecewise linear in ventricular coordinates) or sigmoid "
+                "(of the signed geodesic distance to the region's border)",
+            .source = "sigmoid: Desrues, Delingette, Sermesant"})
+      .key("sigmoid_slope", &Reduction::sigmoid_slope,
+           {.range = above_zero(20),
+            .meaning = "slope a of the sigmoid 1/(1 + exp(a d)), d the normalised signed distance",
+            .source = "Desrues, Delingette, Sermesant",
+            .used_with = "weights",
+            .used_values = {"sigmoid"}})
+      .key("enrichment", &Reduction::enrichment,
+           {.meaning =
+                "monomials beside the affine {1, l, c, t} of each frame, in the local longitudinal, "
+                "circumferential and depth coordinates: words of the letters l, c, t such as tt, lt, ctt",
+            .absent = "from preset"})
+      .key("pressure_space", &Reduction::pressure_space,
+           {.meaning =
+                "functions of the volumetric pressure in each segment: none (every integration point on "
+                "its own), segment {1}, segment_depth {1, t}, segment_linear {1, l, c, t}, "
+                "segment_bilinear {1, l, c, t, lt, ct}",
+            .absent = "from preset"})
+      .key("axes", &Reduction::axes,
+           {.meaning = "components of the unknowns along heart axes (longitudinal, "
+                       "circumferential, radial) or Cartesian axes"})
+      .key("ring_positions", &Reduction::ring_positions,
+           {.range = {0, 1},
+            .meaning = "apicobasal coordinate of each ring of control nodes, 0 apex to 1 base, rising",
+            .absent = "from the centres of the segments"})
+      .key("integration", &Reduction::integration,
+           {.meaning =
+                "integration points: cells (product rules between the kinks of the weights) or gauss (in "
+                "every tetrahedron)"})
+      .key("points_per_segment", &Reduction::points_per_segment,
+           {.range = {1, 100000},
+            .meaning = "integration points in a segment, about",
+            .absent = "what the functions need"})
+      .key(
+          "element_order", &Reduction::element_order,
+          {.range = {1, 2},
+           .meaning = "order of the elements of the full-order model; order 1 locks near incompressibility"});
+  return table.build();
+}
+
+KeyFacts of_law(std::string law, std::string unit, Range range, std::string meaning, std::string source) {
+  KeyFacts facts;
+  facts.unit = std::move(unit);
+  facts.range = range;
+  facts.meaning = std::move(meaning);
+  facts.source = std::move(source);
+  facts.used_with = "law";
+  facts.used_values = {std::move(law)};
+  return facts;
+}
+
+Table tissue_table() {
+  const auto guccione = [](const char* unit, const char* meaning) {
+    return of_law("guccione", unit, above_zero(1000), meaning,
+                  "law Guccione 1991; value Land 2015, problem 3");
+  };
+  const auto ogden = [](const char* unit, double high, const char* meaning) {
+    return of_law("holzapfel_ogden", unit, {0, high}, meaning,
+                  "law Holzapfel & Ogden 2009; value Aróstica 2025");
+  };
+  TableBuilder table("tissue", "Passive law and viscosity of the muscle.", &Protocol::tissue);
+  table
+      .key("law", &Tissue::law,
+           {.meaning = "passive law; guccione and holzapfel_ogden act on isochoric strains (I4, I8 of "
+                       "holzapfel_ogden excepted), with a volumetric energy beside them"})
+      .key("C_kPa", &Tissue::C_kPa,
+           guccione("kPa",
+                    "C of W = C/2 (exp Q − 1), Q = bf E_ff² + bt (E_ss² + E_nn² "
+                    "+ 2 E_sn²) + 2 bfs (E_fs² + E_fn²)"))
+      .key("bf", &Tissue::bf, guccione("", "stiffness along the fibre in Q (see C_kPa)"))
+      .key("bt", &Tissue::bt, guccione("", "stiffness across the fibre in Q (see C_kPa)"))
+      .key("bfs", &Tissue::bfs, guccione("", "shear stiffness in Q (see C_kPa)"))
+      .key("a_kPa", &Tissue::a_kPa, ogden("kPa", 1000, "a of a/(2b) (exp(b (I1 − 3)) − 1)"))
+      .key("b", &Tissue::b, ogden("", 200, "b of the isotropic term (see a_kPa)"))
+      .key("a_f_kPa", &Tissue::a_f_kPa, ogden("kPa", 1000, "a_f of a_f/(2b_f) (exp(b_f (I4f − 1)²) − 1)"))
+      .key("b_f", &Tissue::b_f, ogden("", 200, "b_f of the fibre term (see a_f_kPa)"))
+      .key("a_s_kPa", &Tissue::a_s_kPa, ogden("kPa", 1000, "a_s of a_s/(2b_s) (exp(b_s (I4s − 1)²) − 1)"))
+      .key("b_s", &Tissue::b_s, ogden("", 200, "b_s of the sheet term (see a_s_kPa)"))
+      .key("a_fs_kPa", &Tissue::a_fs_kPa, ogden("kPa", 1000, "a_fs of a_fs/(2b_fs) (exp(b_fs I8fs²) − 1)"))
+      .key("b_fs", &Tissue::b_fs, ogden("", 200, "b_fs of the fibre–sheet term (see a_fs_kPa)"))
+      .key("mu_kPa", &Tissue::mu_kPa,
+           of_law("neo_hookean", "kPa", above_zero(1e6), "shear modulus of W = µ/2 (I1 − 3), I1 isochoric",
+                  "E = 10 kPa, ν = 0.49: µ = E/(2 (1 + ν))"))
+      .key("c1_kPa", &Tissue::c1_kPa,
+           of_law("mooney_rivlin", "kPa", above_zero(1e6), "c1 of W = c1 (I1 − 3) + c2 (I2 − 3), isochoric",
+                  "2 (c1 + c2) = 3.4 kPa, as mu_kPa"))
+      .key("c2_kPa", &Tissue::c2_kPa,
+           of_law("mooney_rivlin", "kPa", {0, 1e6}, "c2 of W = c1 (I1 − 3) + c2 (I2 − 3), isochoric",
+                  "2 (c1 + c2) = 3.4 kPa, as mu_kPa"))
+      .key("youngs_modulus_kPa", &Tissue::youngs_modulus_kPa,
+           of_law("saint_venant_kirchhoff", "kPa", above_zero(1e9), "Young's modulus",
+                  "soft muscle, as mu_kPa"))
+      .key("poisson_ratio", &Tissue::poisson_ratio,
+           of_law("saint_venant_kirchhoff", "", {0, 0.4999}, "Poisson's ratio", "nearly incompressible"))
+      .key("bulk_modulus_kPa", &Tissue::bulk_modulus_kPa,
+           {.unit = "kPa",
+            .range = above_zero(1e7),
+            .meaning = "bulk modulus of the volumetric energy",
+            .source = "a hundred times the shear modulus of soft muscle",
+            .used_with = "law",
+            .used_values = {"guccione", "holzapfel_ogden", "neo_hookean", "mooney_rivlin"}})
+      .key("viscosity_kPa_ms", &Tissue::viscosity_kPa_ms,
+           {.unit = "kPa·ms",
+            .range = {0, 1e5},
+            .meaning = "viscosity η of the second Piola–Kirchhoff stress S = η dE/dt",
+            .source = "Aróstica 2025: 100 Pa·s"});
+  return table.build();
+}
+
+Table fibres_table() {
+  TableBuilder table("fibres", "Direction of the muscle fibres.", &Protocol::fibres);
+  table
+      .key("rule", &Fibres::rule,
+           {.meaning = "helix: the angle from the circumferential towards the longitudinal (base) direction "
+                       "varies linearly through the depth of the wall",
+            .source = "Bayer 2012; Streeter 1969"})
+      .key("endo_angle_deg", &Fibres::endo_angle_deg,
+           {.unit = "deg",
+            .range = {-90, 90},
+            .meaning = "helix angle at the endocardium",
+            .source = "Bayer 2012"})
+      .key("epi_angle_deg", &Fibres::epi_angle_deg,
+           {.unit = "deg",
+            .range = {-90, 90},
+            .meaning = "helix angle at the epicardium",
+            .source = "Bayer 2012"})
+      .key("sheet_angle_deg", &Fibres::sheet_angle_deg,
+           {.unit = "deg",
+            .range = {-90, 90},
+            .meaning = "angle of the sheet direction from the wall normal, about the fibre"});
+  return table.build();
+}
+
+}  // namespace
+
+std::vector<Table> model_tables() {
+  return {mesh_table(), anatomy_table(), reduction_table(), tissue_table(), fibres_table()};
+}
+
+}  // namespace cardiac::protocol

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include <cardiac/protocol/sections.hpp>
+
+/// The words of the protocol file for each enumeration, in the order of its values.
+namespace cardiac::protocol {
+
+template <std::size_t count>
+using Names = std::array<std::string_view, count>;
+
+constexpr Names<2> names_of(Shape) {
+  return {"human_lv", "land_ellipsoid"};
+}
+constexpr Names<3> names_of(LengthUnit) {
+  return {"mm", "cm", "m"};
+}
+constexpr Names<1> names_of(Scheme) {
+  return {"aha17"};
+}
+constexpr Names<2> names_of(Method) {
+  return {"polyaffine", "fem"};
+}
+constexpr Names<2> names_of(Preset) {
+  return {"fast", "accurate"};
+}
+constexpr Names<2> names_of(Weights) {
+  return {"sigmoid", "tents"};
+}
+constexpr Names<5> names_of(PressureSpace) {
+  return {"none", "segment", "segment_depth", "segment_linear", "segment_bilinear"};
+}
+constexpr Names<2> names_of(Axes) {
+  return {"heart", "cartesian"};
+}
+constexpr Names<2> names_of(Integration) {
+  return {"cells", "gauss"};
+}
+constexpr Names<5> names_of(TissueLaw) {
+  return {"guccione", "holzapfel_ogden", "neo_hookean", "mooney_rivlin", "saint_venant_kirchhoff"};
+}
+constexpr Names<1> names_of(FibreRule) {
+  return {"helix"};
+}
+constexpr Names<2> names_of(ActivationMode) {
+  return {"uniform", "sites"};
+}
+constexpr Names<1> names_of(ContractionModel) {
+  return {"bestel_clement_sorine_simplified"};
+}
+constexpr Names<2> names_of(Base) {
+  return {"clamped", "spring"};
+}
+constexpr Names<2> names_of(Clamp) {
+  return {"projection", "stiff_springs"};
+}
+
+/// The word of one value, for instance "polyaffine" for Method::polyaffine.
+template <class Enum>
+std::string name_of(Enum value) {
+  return std::string(names_of(value)[static_cast<std::size_t>(value)]);
+}
+
+}  // namespace cardiac::protocol

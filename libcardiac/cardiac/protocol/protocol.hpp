@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <cardiac/protocol/sections.hpp>
+
+namespace cardiac {
+
+/// What a run shall do, read from a TOML file: checked, defaults filled in, each number in the unit of its
+/// name. A table that is absent in an optional member means that the part is not built.
+struct Protocol {
+  protocol::Mesh mesh;
+  protocol::Anatomy anatomy;
+  protocol::Reduction reduction;
+  protocol::Tissue tissue;
+  std::optional<protocol::Fibres> fibres;
+  std::optional<protocol::Activation> activation;
+  std::optional<protocol::Contraction> contraction;
+  std::optional<protocol::Cavities> cavities;
+  std::optional<protocol::Circulation> circulation;
+  protocol::Boundary boundary;
+  protocol::Time time;
+  protocol::Output output;
+  std::vector<protocol::RegionOverride> regions;
+
+  std::filesystem::path directory;    ///< of the protocol file; mesh.file is relative to it
+  std::vector<std::string> warnings;  ///< keys that were given but play no part, each with its reason
+};
+
+/// Path of the mesh file; only with a mesh.file.
+std::filesystem::path mesh_path(const Protocol& protocol);
+
+/// Throws polyaffine::InputError when the mesh.file of the protocol does not exist.
+void check_mesh_file(const Protocol& protocol);
+
+/// Reads a protocol file (.toml). `overrides` are texts `key.path=value`, the value in TOML (a bare word is
+/// taken as text); they replace what the file says and pass the same checks. Throws polyaffine::InputError,
+/// naming file, line or option, key, what was found, what was expected and the unit.
+Protocol load_protocol(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+
+/// The same from a text; `source` stands for the file in messages and gives the directory.
+Protocol parse_protocol(const std::string& text, const std::filesystem::path& source,
+                        const std::vector<std::string>& overrides = {});
+
+}  // namespace cardiac

@@ -1,0 +1,157 @@
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <regex>
+#include <set>
+
+#include <cardiac/protocol/nearest_key.hpp>
+#include <cardiac/protocol/rules.hpp>
+#include <polyaffine/core/error.hpp>
+
+namespace cardiac::protocol {
+namespace {
+
+using polyaffine::InputError;
+
+[[noreturn]] void fail(const Place& place, const std::string& path, const std::string& text) {
+  throw InputError(place(path) + ": " + path + ": " + text);
+}
+
+void check_mesh(const Mesh& mesh, const Place& place) {
+  if (mesh.file && mesh.shape) fail(place, "mesh.shape", "given beside mesh.file; expected one of the two");
+  if (!mesh.file && !mesh.shape) {
+    fail(place, "mesh", "neither mesh.file nor mesh.shape is given; expected one of the two");
+  }
+  if (mesh.shape) return;
+  const std::string extension = std::filesystem::path(*mesh.file).extension().string();
+  if (extension != ".vtu" && extension != ".vtk") {
+    fail(place, "mesh.file",
+         "found \"" + *mesh.file + "\", expected a tetrahedral mesh with the extension .vtu or .vtk");
+  }
+  if (!mesh.length_unit) {
+    fail(place, "mesh.length_unit",
+         "missing; expected the length unit of " + *mesh.file + ": one of \"mm\", \"cm\", \"m\"");
+  }
+  if (std::set{mesh.endo_label, mesh.epi_label, mesh.base_label}.size() < 3) {
+    fail(place, "mesh.endo_label", "endo_label, epi_label and base_label must differ");
+  }
+}
+
+double norm(const Vector3& v) {
+  return std::hypot(v[0], v[1], v[2]);
+}
+
+void check_anatomy(const Anatomy& anatomy, const Place& place) {
+  const Vector3& a = anatomy.anterior_direction;
+  if (norm(a) == 0) fail(place, "anatomy.anterior_direction", "found a vector of length 0");
+  if (!anatomy.long_axis) return;
+  const Vector3& b = *anatomy.long_axis;
+  if (norm(b) == 0) fail(place, "anatomy.long_axis", "found a vector of length 0");
+  const Vector3 cross = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  const double sine_of_one_degree = 0.01745;
+  if (norm(cross) < sine_of_one_degree * norm(a) * norm(b)) {
+    fail(place, "anatomy.anterior_direction",
+         "parallel to anatomy.long_axis; expected a direction across the long axis");
+  }
+}
+
+void check_reduction(const Reduction& reduction, const Place& place) {
+  std::set<std::string> seen;
+  for (const std::string& monomial : reduction.enrichment.value_or(std::vector<std::string>{})) {
+    std::string sorted = monomial;
+    std::ranges::sort(sorted);
+    if (!std::regex_match(monomial, std::regex("[lct]{2,3}")) || !seen.insert(sorted).second) {
+      fail(place, "reduction.enrichment",
+           "found \"" + monomial +
+               "\", expected different products of two or three of the letters l, c, t, such as \"tt\", "
+               "\"lt\", \"ctt\"");
+    }
+  }
+  const auto rings = reduction.ring_positions.value_or(std::vector<double>{0});
+  if (rings.empty() || std::ranges::adjacent_find(rings, std::greater_equal<>()) != rings.end()) {
+    fail(place, "reduction.ring_positions", "expected positions that rise from apex (0) to base (1)");
+  }
+}
+
+void check_activity(const Protocol& protocol, const Place& place) {
+  if (protocol.contraction && !protocol.activation) {
+    fail(place, "contraction", "needs a table [activation] that says when the muscle is excited");
+  }
+  if (protocol.activation && protocol.activation->mode == ActivationMode::sites &&
+      protocol.activation->site_segments.empty() && protocol.activation->sites_mm.empty()) {
+    fail(place, "activation.mode",
+         "\"sites\" needs activation.site_segments (AHA segments) or activation.sites_mm (points in mm)");
+  }
+  if (needs_fibres(protocol) && !protocol.fibres) {
+    fail(place, "fibres", "missing; expected a table [fibres]: " + why_fibres(protocol));
+  }
+}
+
+void check_load(const Protocol& protocol, const Place& place) {
+  if (protocol.cavities && protocol.circulation) {
+    fail(place, "cavities",
+         "given beside [circulation]; expected either a prescribed pressure or a circulation");
+  }
+  if (protocol.circulation && !protocol.contraction) {
+    fail(place, "circulation",
+         "needs a table [contraction]; for passive filling expected [cavities] with pressure_mmHg");
+  }
+  if (!protocol.cavities && !protocol.contraction) {
+    fail(place, "cavities",
+         "nothing loads the ventricle: expected [cavities] with pressure_mmHg, or [contraction]");
+  }
+}
+
+void check_regions(const std::vector<RegionOverride>& regions, const Place& place) {
+  std::map<int, std::size_t> owner;
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    const std::string path = key_path("region", i, "segments");
+    if (regions[i].segments.empty()) fail(place, path, "found an empty list, expected at least one segment");
+    for (const int segment : regions[i].segments) {
+      const auto [found, is_new] = owner.emplace(segment, i);
+      if (!is_new) {
+        fail(place, path,
+             "segment " + std::to_string(segment) + " is named twice (already in region " +
+                 std::to_string(found->second + 1) + "); expected each segment in one region at most");
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void fill_presets(Reduction& reduction) {
+  const bool fast = reduction.preset == Preset::fast;
+  using Words = std::vector<std::string>;
+  if (!reduction.enrichment)
+    reduction.enrichment = fast ? Words{"tt"} : Words{"tt", "lt", "ct", "ltt", "ctt"};
+  if (!reduction.pressure_space) {
+    reduction.pressure_space = fast ? PressureSpace::segment_depth : PressureSpace::segment_bilinear;
+  }
+}
+
+std::string why_fibres(const Protocol& protocol) {
+  const Tissue& tissue = protocol.tissue;
+  if (protocol.contraction) return "the muscle contracts along them";
+  if (tissue.law == TissueLaw::holzapfel_ogden) return "the law holzapfel_ogden is anisotropic";
+  if (tissue.law == TissueLaw::guccione && (tissue.bf != tissue.bt || tissue.bf != tissue.bfs)) {
+    return "the law guccione is anisotropic (bf, bt and bfs differ)";
+  }
+  return "";
+}
+
+bool needs_fibres(const Protocol& protocol) {
+  return !why_fibres(protocol).empty();
+}
+
+void check_rules(const Protocol& protocol, const Place& place) {
+  check_mesh(protocol.mesh, place);
+  check_anatomy(protocol.anatomy, place);
+  check_reduction(protocol.reduction, place);
+  check_activity(protocol, place);
+  check_load(protocol, place);
+  check_regions(protocol.regions, place);
+}
+
+}  // namespace cardiac::protocol

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include <cardiac/protocol/protocol.hpp>
+
+namespace cardiac::protocol {
+
+/// Where a key was given ("file:12"), or where it could be ("file") when it was not; for messages.
+using Place = std::function<std::string(const std::string& path)>;
+
+/// The presets, written out: enrichment and pressure space that the file does not name.
+void fill_presets(Reduction& reduction);
+
+/// What a single key cannot tell: keys that need, exclude or contradict one another. Throws
+/// polyaffine::InputError at the first violation.
+void check_rules(const Protocol& protocol, const Place& place);
+
+/// Does the passive law, the contraction or the conduction depend on the direction of the fibres?
+bool needs_fibres(const Protocol& protocol);
+std::string why_fibres(const Protocol& protocol);
+
+}  // namespace cardiac::protocol

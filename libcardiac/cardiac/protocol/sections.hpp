@@ -1,0 +1,145 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The tables of a protocol. The initial values are the defaults of the protocol file; meaning, range and
+/// source of every key stand in the key table (key_table.cpp) and are printed by `cardiac explain KEY`.
+namespace cardiac::protocol {
+
+using Vector3 = std::array<double, 3>;
+
+enum class Shape { human_lv, land_ellipsoid };
+enum class LengthUnit { mm, cm, m };
+struct Mesh {
+  std::optional<std::string> file;  ///< either file (with its length_unit) or shape
+  std::optional<Shape> shape;
+  std::optional<double> size_mm;  ///< edge length of a generated mesh; absent: the shape's own
+  std::optional<LengthUnit> length_unit;
+  std::string label_array = "surface_label";
+  int endo_label = 1, epi_label = 2, base_label = 3;
+};
+
+enum class Scheme { aha17 };
+struct Anatomy {
+  Scheme scheme = Scheme::aha17;
+  std::optional<Vector3> long_axis;  ///< apex to base; absent: normal of the base
+  Vector3 anterior_direction = {0, 1, 0};
+};
+
+enum class Method { polyaffine, fem };
+enum class Preset { fast, accurate };
+enum class Weights { sigmoid, tents };
+enum class PressureSpace { none, segment, segment_depth, segment_linear, segment_bilinear };
+enum class Axes { heart, cartesian };
+enum class Integration { cells, gauss };
+struct Reduction {
+  Method method = Method::polyaffine;
+  Preset preset = Preset::fast;
+  Weights weights = Weights::tents;
+  double sigmoid_slope = 2.25;
+  std::optional<std::vector<std::string>> enrichment;  ///< set by the preset when the file does not name it
+  std::optional<PressureSpace> pressure_space;         ///< set by the preset when the file does not name it
+  Axes axes = Axes::heart;
+  std::optional<std::vector<double>> ring_positions;  ///< apicobasal, 0 apex to 1 base; absent: by segment
+  Integration integration = Integration::cells;
+  std::optional<int> points_per_segment;
+  int element_order = 2;  ///< of the full-order model
+};
+
+enum class TissueLaw { guccione, holzapfel_ogden, neo_hookean, mooney_rivlin, saint_venant_kirchhoff };
+struct Tissue {
+  TissueLaw law = TissueLaw::guccione;
+  double C_kPa = 2, bf = 8, bt = 2, bfs = 4;             ///< guccione
+  double a_kPa = 0.059, b = 8.023;                       ///< holzapfel_ogden, matrix
+  double a_f_kPa = 18.472, b_f = 16.026;                 ///< fibres
+  double a_s_kPa = 2.481, b_s = 11.12;                   ///< sheets
+  double a_fs_kPa = 0.216, b_fs = 11.436;                ///< fibre–sheet shear
+  double mu_kPa = 3.356;                                 ///< neo_hookean
+  double c1_kPa = 1.5, c2_kPa = 0.2;                     ///< mooney_rivlin
+  double youngs_modulus_kPa = 10, poisson_ratio = 0.49;  ///< saint_venant_kirchhoff
+  double bulk_modulus_kPa = 300;                         ///< every law but saint_venant_kirchhoff
+  double viscosity_kPa_ms = 100;
+};
+
+enum class FibreRule { helix };
+struct Fibres {
+  FibreRule rule = FibreRule::helix;
+  double endo_angle_deg = 60, epi_angle_deg = -60;  ///< from circumferential towards the base
+  double sheet_angle_deg = 0;                       ///< of the sheet direction from the wall normal
+};
+
+enum class ActivationMode { uniform, sites };
+struct Activation {
+  ActivationMode mode = ActivationMode::uniform;
+  double onset_ms = 100;
+  std::vector<int> site_segments;  ///< segments whose endocardial centre is a site
+  std::vector<Vector3> sites_mm;   ///< further sites: the nearest vertex of the mesh
+  double conduction_along_fibre_mm_per_ms = 0.6;
+  double conduction_across_fibre_mm_per_ms = 0.2;
+};
+
+enum class ContractionModel { bestel_clement_sorine_simplified };
+struct Contraction {
+  ContractionModel model = ContractionModel::bestel_clement_sorine_simplified;
+  double contractility_kPa = 150;
+  double activation_rate_per_s = 5;
+  double relaxation_rate_per_s = 30;
+  double activation_duration_ms = 324;
+  double switch_width_ms = 5;
+  double cross_fibre_fraction = 0;
+};
+
+struct Cavities {
+  double pressure_mmHg = 0;  ///< prescribed, raised from zero
+};
+
+struct Circulation {
+  double filling_pressure_mmHg = 10;
+  double mitral_resistance_mmHg_s_per_mL = 0.01;
+  double aortic_valve_resistance_mmHg_s_per_mL = 0.007;
+  double characteristic_resistance_mmHg_s_per_mL = 0.04;
+  double peripheral_resistance_mmHg_s_per_mL = 1.0;
+  double compliance_mL_per_mmHg = 1.5;
+  double venous_pressure_mmHg = 5;
+  double initial_aortic_pressure_mmHg = 80;
+};
+
+enum class Base { clamped, spring };
+enum class Clamp { projection, stiff_springs };
+struct Boundary {
+  Base base = Base::clamped;
+  Clamp clamp = Clamp::projection;
+  double base_stiffness_kPa_per_mm = 0.1;      ///< base = spring, all directions
+  double epicardial_stiffness_kPa_per_mm = 0;  ///< along the reference normal; 0: none
+};
+
+struct Time {
+  double heart_rate_bpm = 75;
+  int max_beats = 10;
+  double limit_cycle_tolerance_percent = 1;  ///< of the stroke volume, between two beats
+  double relative_tolerance = 1e-4;
+  double absolute_tolerance_mm = 1e-3;
+  double absolute_tolerance_mmHg = 1e-2;
+  double max_step_ms = 10;
+  int load_steps = 10;       ///< of a static loading
+  double duration_ms = 800;  ///< of a contraction without circulation
+};
+
+struct Output {
+  double interval_ms = 10;
+  bool tables = true, figures = true, mesh_series = true;
+};
+
+/// Segments that differ from the rest: scar, ischaemia, late activation.
+struct RegionOverride {
+  std::string name;
+  std::vector<int> segments;
+  double tension_factor = 1, stiffness_factor = 1;
+  double activation_delay_ms = 0;
+  double border_width_percent = 10;  ///< of the segment's size, over which the factors blend
+};
+
+}  // namespace cardiac::protocol

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <sys/wait.h>
+
+#include <unistd.h>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+struct ProgramRun {
+  int status = -1;
+  std::string out, err;
+};
+
+inline std::string whole_file(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+/// A folder of its own for one test, removed at its end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "cardiac_test_XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) std::abort();
+    path = name;
+  }
+  ~TemporaryFolder() { std::filesystem::remove_all(path); }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  std::filesystem::path path;
+};
+
+/// Runs the program as a child; the arguments as a shell reads them.
+inline ProgramRun run_program(const std::string& arguments) {
+  const TemporaryFolder folder;
+  const auto out = folder.path / "out", err = folder.path / "err";
+  const int code = std::system(
+      ("\"" CARDIAC_PROGRAM "\" " + arguments + " >" + out.string() + " 2>" + err.string() + " </dev/null")
+          .c_str());
+  return {WIFEXITED(code) ? WEXITSTATUS(code) : -1, whole_file(out), whole_file(err)};
+}

@@ -1,0 +1,61 @@
+#include <set>
+
+#include <cardiac/protocol/plan.hpp>
+
+#include "texts.hpp"
+
+using cardiac::builds;
+using cardiac::plan;
+
+namespace {
+
+TEST(Plan, PassiveInflationLeavesOutTheBeat) {
+  const auto items = plan(cardiac::load_protocol(PROJECT_DIR "/protocols/passive_inflation.toml"));
+  for (const char* part :
+       {"fibres", "activation", "contraction", "circulation", "full order", "verification"}) {
+    EXPECT_FALSE(builds(items, part)) << part;
+  }
+  for (const char* part : {"mesh", "segments", "cavity", "reduction"})
+    EXPECT_TRUE(builds(items, part)) << part;
+}
+
+TEST(Plan, BeatBuildsItsParts) {
+  for (const char* name : {"healthy_lv", "infarct_lv"}) {
+    const auto items = plan(cardiac::load_protocol(std::string(PROJECT_DIR "/protocols/") + name + ".toml"));
+    for (const char* part : {"fibres", "activation", "contraction", "cavity", "circulation", "reduction"}) {
+      EXPECT_TRUE(builds(items, part)) << name << ' ' << part;
+    }
+    EXPECT_EQ(builds(items, "regions"), std::string(name) == "infarct_lv");
+  }
+}
+
+TEST(Plan, NamedButIdlePartsAreLeftOut) {
+  const auto items = plan(parsed(kPassive + "[fibres]\n[activation]\n"));
+  EXPECT_FALSE(builds(items, "fibres"));
+  EXPECT_FALSE(builds(items, "activation"));
+}
+
+TEST(Plan, FullOrderAndVerification) {
+  const auto fem = plan(parsed(kBeat, {"reduction.method=fem"}), true);
+  EXPECT_FALSE(builds(fem, "reduction"));
+  EXPECT_TRUE(builds(fem, "full order"));
+  EXPECT_FALSE(builds(fem, "verification"));
+  const auto verified = plan(parsed(kBeat), true);
+  EXPECT_TRUE(builds(verified, "reduction"));
+  EXPECT_TRUE(builds(verified, "full order"));
+  EXPECT_TRUE(builds(verified, "verification"));
+}
+
+TEST(Plan, OutputsAndReasons) {
+  const auto items = plan(parsed(kBeat, {"output.figures=false"}));
+  EXPECT_FALSE(builds(items, "figures"));
+  EXPECT_TRUE(builds(items, "mesh series"));
+  std::set<std::string> parts;
+  for (const auto& item : items) {
+    EXPECT_FALSE(item.why.empty()) << item.part;
+    EXPECT_TRUE(parts.insert(item.part).second) << item.part;
+  }
+  EXPECT_THROW(builds(items, "wings"), std::out_of_range);
+}
+
+}  // namespace

@@ -1,0 +1,66 @@
+#include "texts.hpp"
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+namespace {
+
+TEST(Rules, MeshIsEitherFileOrShape) {
+  EXPECT_THAT(refusal(kPassive, {"mesh.file=a.vtu"}), HasSubstr("expected one of the two"));
+  const std::string file =
+      "[cavities]\npressure_mmHg = 1\n[tissue]\nlaw = \"neo_hookean\"\n[mesh]\nlength_unit = \"mm\"\n";
+  EXPECT_THAT(refusal(file + "file = \"heart.obj\"\n"),
+              AllOf(HasSubstr("heart.toml:7: mesh.file"), HasSubstr("heart.obj"), HasSubstr(".vtu")));
+  EXPECT_THAT(refusal(file + "file = \"heart.vtu\"\nepi_label = 1\n"), HasSubstr("must differ"));
+  EXPECT_NO_THROW(parsed(file + "file = \"heart.vtk\"\n"));
+}
+
+TEST(Rules, DirectionsMustSpanAPlane) {
+  EXPECT_THAT(refusal(kPassive, {"anatomy.anterior_direction=[0, 0, 0]"}), HasSubstr("length 0"));
+  EXPECT_THAT(refusal(kPassive, {"anatomy.long_axis=[0, 0, 0]"}), HasSubstr("length 0"));
+  EXPECT_THAT(refusal(kPassive, {"anatomy.long_axis=[0, -2, 0.01]"}), HasSubstr("parallel"));
+  EXPECT_NO_THROW(parsed(kPassive, {"anatomy.long_axis=[0, -2, 0.2]"}));
+}
+
+TEST(Rules, EnrichmentAndRings) {
+  for (const char* bad : {"[\"t\"]", "[\"tx\"]", "[\"tttt\"]", "[\"lt\", \"tl\"]"}) {
+    EXPECT_THAT(refusal(kPassive, {std::string("reduction.enrichment=") + bad}),
+                HasSubstr("letters l, c, t"));
+  }
+  for (const char* bad : {"[]", "[0, 0]", "[0.5, 0.2]"}) {
+    EXPECT_THAT(refusal(kPassive, {std::string("reduction.ring_positions=") + bad}), HasSubstr("rise"));
+  }
+}
+
+TEST(Rules, PartsThatNeedOthers) {
+  const std::string shape = "[mesh]\nshape = \"human_lv\"\n";
+  const std::string soft = "[tissue]\nlaw = \"neo_hookean\"\n";
+  const std::string pressure = "[cavities]\npressure_mmHg = 1\n";
+  EXPECT_THAT(refusal(shape + soft + pressure + "[fibres]\n[contraction]\n"), HasSubstr("[activation]"));
+  EXPECT_THAT(refusal(shape + soft + pressure + "[activation]\n[contraction]\n"), HasSubstr("[fibres]"));
+  EXPECT_THAT(refusal(shape + pressure), AllOf(HasSubstr("[fibres]"), HasSubstr("guccione")));
+  EXPECT_NO_THROW(parsed(shape + pressure + "[tissue]\nbf = 1\nbt = 1\nbfs = 1\n"));  // isotropic
+  EXPECT_THAT(refusal(shape + soft + "[circulation]\n"), HasSubstr("[contraction]"));
+  EXPECT_THAT(refusal(shape + soft), HasSubstr("nothing loads"));
+  EXPECT_THAT(refusal(kBeat + pressure), HasSubstr("either a prescribed pressure or a circulation"));
+  EXPECT_THAT(refusal(kBeat, {"activation.mode=sites"}), HasSubstr("site_segments"));
+}
+
+TEST(Rules, SegmentsBelongToOneRegion) {
+  EXPECT_THAT(
+      refusal(kBeat + "[[region]]\nsegments = [1, 2]\n[[region]]\nsegments = [2]\n"),
+      AllOf(HasSubstr("heart.toml:10: region.2.segments"), HasSubstr("segment 2"), HasSubstr("region 1")));
+  EXPECT_THAT(refusal(kBeat + "[[region]]\nsegments = []\n"), HasSubstr("at least one segment"));
+}
+
+TEST(Rules, KeysThatPlayNoPartAreWarnedOf) {
+  const auto protocol = parsed(kPassive, {"tissue.C_kPa=2"});
+  ASSERT_THAT(protocol.warnings, SizeIs(1));
+  EXPECT_THAT(protocol.warnings[0], AllOf(HasSubstr("tissue.C_kPa"), HasSubstr("tissue.law = guccione")));
+  EXPECT_THAT(parsed(kPassive, {"mesh.length_unit=mm"}).warnings, SizeIs(1));
+  EXPECT_THAT(parsed(kPassive, {"tissue.mu_kPa=2"}).warnings, IsEmpty());
+}
+
+}  // namespace
