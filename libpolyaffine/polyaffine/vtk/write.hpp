@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <polyaffine/mesh/tet_mesh.hpp>
+
+namespace polyaffine {
+
+/// What to write beside the mesh.
+struct WriteFields {
+  std::map<std::string, Matrix> point_fields{};  ///< components × points
+  std::map<std::string, Matrix>
+      cell_fields{};  ///< components × tets; a boundary triangle shows its tet's value
+  Points points{};    ///< deformed positions (mm) instead of the mesh's, if not empty
+};
+
+/// Writes a .vtu file: tets, then the labelled boundary triangles, with the integer cell arrays "surface"
+/// (label of a triangle, 0 on tets) and "region" (where the mesh has regions).
+///
+/// Coordinates are mm, data is binary, zlib-compressed. The file is written under a temporary name and
+/// renamed when whole. Throws InputError when the name does not end in .vtu, its folder does not exist, or a
+/// field does not fit the mesh; ComputationError when writing fails.
+void write_vtu(const std::filesystem::path& path, const TetMesh& mesh, const WriteFields& fields = {});
+
+/// Writes a ParaView collection that gives each file of a series its time in ms. Files are named relative to
+/// the collection's folder; the same errors as write_vtu.
+void write_pvd(const std::filesystem::path& path, const std::vector<double>& times_ms,
+               const std::vector<std::filesystem::path>& files);
+
+}  // namespace polyaffine
