@@ -76,4 +76,16 @@ PressureSpace region_pressure(const FieldTable& table, const std::vector<int>& r
   return space;
 }
 
+PressureSpace dense_pressure(const FieldTable& table, const Matrix& values, double bulk_modulus) {
+  PressureSpace space{bulk_modulus, static_cast<int>(values.rows()), {}};
+  for (const auto& block : table.blocks) {
+    const auto here = values.middleCols(block.first, block.count);
+    std::vector<int> present;
+    for (int b = 0; b < space.num_functions; ++b)
+      if (!here.row(b).isZero(0)) present.push_back(b);
+    space.blocks.push_back({present, here(present, Eigen::all)});
+  }
+  return space;
+}
+
 }  // namespace polyaffine
