@@ -36,8 +36,11 @@ class StiffnessFactor {
   explicit StiffnessFactor(std::vector<double> values);
   /// InputError unless empty or one factor for each of `points`.
   void require_size(std::ptrdiff_t points) const;
+  Pack at(PackPoints points) const {
+    return values_.empty() ? broadcast(1) : gather(values_.data() + points.point, 1, points.lanes);
+  }
   void apply(PackPoints points, PackResponse& r) const {
-    if (!values_.empty()) scale(r, gather(values_.data() + points.point, 1, points.lanes));
+    if (!values_.empty()) scale(r, at(points));
   }
 
  private:
