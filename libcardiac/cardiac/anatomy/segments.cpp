@@ -1,5 +1,6 @@
 #include "cardiac/anatomy/segments.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -57,6 +58,28 @@ int aha_segment(double long_axis_height, double psi) {
   const int n = kSize[ring];
   const int sector = static_cast<int>(std::floor(psi * n / (2 * polyaffine::kPi) + 0.5));
   return kFirst[ring] + (sector % n + n) % n;
+}
+
+std::array<double, kAhaSegments> segment_shares(double height, double psi, double border) {
+  // 0 below the edge, 1 above it, over the width.
+  const auto step = [](double distance, double width) {
+    if (width <= 0) return distance < 0 ? 0.0 : 1.0;
+    const double s = std::clamp(distance / width + 0.5, 0.0, 1.0);
+    return s * s * (3 - 2 * s);
+  };
+  std::array<double, kAhaSegments> share{};
+  const std::array<double, 5> above{1, step(height, border / 3), step(height - 1.0 / 3, border / 3),
+                                    step(height - 2.0 / 3, border / 3), 0};
+  for (int ring = 0; ring < 4; ++ring) {
+    const double in_ring = above[ring] - above[ring + 1];
+    for (int j = 0; j < kSize[ring]; ++j) {
+      const double sector = 2 * polyaffine::kPi / kSize[ring];
+      double from_centre = std::abs(psi - j * sector);
+      from_centre = std::min(from_centre, 2 * polyaffine::kPi - from_centre) / sector;
+      share[kFirst[ring] + j - 1] = ring == 0 ? in_ring : in_ring * step(0.5 - from_centre, border);
+    }
+  }
+  return share;
 }
 
 std::vector<int> segment_tets(const polyaffine::TetMesh& mesh, const VentricularCoordinates& coordinates) {

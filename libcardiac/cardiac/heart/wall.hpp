@@ -9,11 +9,10 @@
 
 namespace cardiac {
 
-/// Factor of each segment at points of the wall: the product of the overrides that hold there, each blended to 1 over
-/// its border by the distance (in coordinates of the segment's size) to the overridden segments.
+/// What the region overrides of a protocol make of each point of the wall: the product of their factors and the sum
+/// of their delays, each blended to nothing over its border by the share of its segments. Empty without overrides.
 struct RegionFactors {
-  std::vector<double> stiffness, tension;
-  polyaffine::Vector delay_ms;
+  std::vector<double> stiffness, tension, delay_ms;
 };
 RegionFactors region_factors(const Anatomy& anatomy, const Protocol& protocol, const polyaffine::WallPoints& points);
 
