@@ -11,6 +11,8 @@
 namespace polyaffine {
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 // Closest point of a triangle, as barycentric coordinates (Ericson 2005, section 5.1.5).
 Vec3 closest_on_triangle(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a, ac = c - a;
@@ -32,21 +34,42 @@ Vec3 closest_on_triangle(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3
   return Vec3(va, vb, vc) / (va + vb + vc);
 }
 
-MeshPoint closest_on_boundary(const TetMesh& mesh, const Vec3& x) {
-  MeshPoint best;
-  best.distance = std::numeric_limits<double>::infinity();
-  for (Eigen::Index f = 0; f < mesh.boundary().cols(); ++f) {
-    const Eigen::Vector3i v = mesh.boundary().col(f);
-    const Vec3 a = mesh.points().col(v[0]), b = mesh.points().col(v[1]), c = mesh.points().col(v[2]);
-    const Vec3 lambda = closest_on_triangle(x, a, b, c);
-    const double distance = (lambda[0] * a + lambda[1] * b + lambda[2] * c - x).norm();
-    if (distance >= best.distance) continue;
-    best = {mesh.boundary_tets()[f], Vec4::Zero(), distance};
-    for (int k = 0; k < 4; ++k)
-      for (int i = 0; i < 3; ++i)
-        if (mesh.tets()(k, best.tet) == v[i]) best.barycentric[k] = lambda[i];
+// Replaces `best` when face v of tet t comes closer to x.
+void offer_face(const TetMesh& mesh, const Vec3& x, int t, const Eigen::Vector3i& v, MeshPoint& best) {
+  const Vec3 a = mesh.points().col(v[0]), b = mesh.points().col(v[1]), c = mesh.points().col(v[2]);
+  const Vec3 lambda = closest_on_triangle(x, a, b, c);
+  const double distance = (lambda[0] * a + lambda[1] * b + lambda[2] * c - x).norm();
+  if (distance >= best.distance) return;
+  best = {t, Vec4::Zero(), distance};
+  for (int k = 0; k < 4; ++k)
+    for (int i = 0; i < 3; ++i)
+      if (mesh.tets()(k, t) == v[i]) best.barycentric[k] = lambda[i];
+}
+
+// x in tet t, with tet = −1 when it is outside.
+MeshPoint inside(const TetMesh& mesh, const Vec3& x, int t) {
+  constexpr double kRounding = 1e-12;
+  for (int d = 0; d < 3; ++d) {
+    double low = kInfinity, high = -kInfinity;
+    for (int k = 0; k < 4; ++k) {
+      const double p = mesh.points()(d, mesh.tets()(k, t));
+      low = std::min(low, p);
+      high = std::max(high, p);
+    }
+    if (x[d] < low - kRounding * (high - low) || x[d] > high + kRounding * (high - low)) return {};
   }
-  return best;
+  Vec4 lambda = barycentric(mesh, t, x);
+  if (lambda.minCoeff() < -kRounding) return {};
+  lambda = lambda.cwiseMax(0);
+  return {t, lambda / lambda.sum(), 0};
+}
+
+void check(const Vec3& x, size_t tets) {
+  if (x.allFinite() && tets > 0) return;
+  std::ostringstream out;
+  out << "point (" << x.transpose() << ") mm to locate among " << tets
+      << " tets: expected finite coordinates and at least one tet";
+  throw InputError(out.str());
 }
 
 }  // namespace
@@ -69,32 +92,28 @@ Vec3 position(const TetMesh& mesh, int t, const Vec4& barycentric) {
 }
 
 MeshPoint locate(const TetMesh& mesh, const Vec3& x) {
-  constexpr double kRounding = 1e-12;
-  if (!x.allFinite() || mesh.num_tets() == 0) {
-    std::ostringstream out;
-    out << "point (" << x.transpose() << ") mm: found nothing to locate in a mesh of " << mesh.num_tets()
-        << " tets, expected finite coordinates and a mesh";
-    throw InputError(out.str());
+  check(x, mesh.num_tets());
+  for (int t = 0; t < mesh.num_tets(); ++t)
+    if (const MeshPoint found = inside(mesh, x, t); found.tet >= 0) return found;
+  MeshPoint best;
+  best.distance = kInfinity;
+  for (Eigen::Index f = 0; f < mesh.boundary().cols(); ++f)
+    offer_face(mesh, x, mesh.boundary_tets()[f], mesh.boundary().col(f), best);
+  return best;
+}
+
+MeshPoint locate(const TetMesh& mesh, const Vec3& x, const std::vector<int>& tets) {
+  check(x, tets.size());
+  for (const int t : tets)
+    if (const MeshPoint found = inside(mesh, x, t); found.tet >= 0) return found;
+  MeshPoint best;
+  best.distance = kInfinity;
+  for (const int t : tets) {
+    const Eigen::Vector4i v = mesh.tets().col(t);
+    for (int k = 0; k < 4; ++k)
+      offer_face(mesh, x, t, {v[(k + 1) % 4], v[(k + 2) % 4], v[(k + 3) % 4]}, best);
   }
-  for (int t = 0; t < mesh.num_tets(); ++t) {
-    bool outside_box = false;
-    for (int d = 0; d < 3; ++d) {
-      double low = std::numeric_limits<double>::infinity(), high = -low;
-      for (int k = 0; k < 4; ++k) {
-        const double p = mesh.points()(d, mesh.tets()(k, t));
-        low = std::min(low, p);
-        high = std::max(high, p);
-      }
-      outside_box =
-          outside_box || x[d] < low - kRounding * (high - low) || x[d] > high + kRounding * (high - low);
-    }
-    if (outside_box) continue;
-    Vec4 lambda = barycentric(mesh, t, x);
-    if (lambda.minCoeff() < -kRounding) continue;
-    lambda = lambda.cwiseMax(0);
-    return {t, lambda / lambda.sum(), 0};
-  }
-  return closest_on_boundary(mesh, x);
+  return best;
 }
 
 }  // namespace polyaffine

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <polyaffine/core/types.hpp>
 #include <polyaffine/mesh/tet_mesh.hpp>
 
@@ -21,5 +23,8 @@ Vec3 position(const TetMesh& mesh, int t, const Vec4& barycentric);
 /// The tet that holds x (mm), or the closest point of the boundary when none does. Visits every tet.
 /// Throws InputError when x is not finite or the mesh is empty.
 MeshPoint locate(const TetMesh& mesh, const Vec3& x);
+
+/// The same among some tets only: the one that holds x, or the point of them closest to x.
+MeshPoint locate(const TetMesh& mesh, const Vec3& x, const std::vector<int>& tets);
 
 }  // namespace polyaffine

@@ -159,4 +159,12 @@ Points positions(const TetMesh& mesh, const QuadraturePoints& points) {
   return x;
 }
 
+Vector interpolate(const TetMesh& mesh, const Vector& vertex_values, const QuadraturePoints& points) {
+  Vector values = Vector::Zero(points.size());
+  for (int i = 0; i < points.size(); ++i)
+    for (int k = 0; k < 4; ++k)
+      values[i] += points.barycentric(k, i) * vertex_values[mesh.tets()(k, points.tet[i])];
+  return values;
+}
+
 }  // namespace polyaffine

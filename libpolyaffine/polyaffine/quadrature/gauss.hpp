@@ -52,4 +52,7 @@ QuadraturePoints gauss_points(const TetMesh& mesh, int degree);
 /// X = Σ_k λ_k x_k of every point (3 × n, mm).
 Points positions(const TetMesh& mesh, const QuadraturePoints& points);
 
+/// Values at the points of a field given at the vertices and linear in every tet.
+Vector interpolate(const TetMesh& mesh, const Vector& vertex_values, const QuadraturePoints& points);
+
 }  // namespace polyaffine

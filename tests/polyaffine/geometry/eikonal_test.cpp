@@ -87,7 +87,7 @@ TEST(Eikonal, FollowsATiltedPlaneFront) {
     const Vec3 foot = x - (normal.dot(x) - normal.sum() / 2) * normal;
     if ((foot.array() - 0.5).abs().maxCoeff() > 0.3 || exact[v] < 0.15) continue;
     ++checked;
-    EXPECT_NEAR(time[v], exact[v], 5e-3 * exact[v]);  // exact for linear T but for what the sides send in
+    EXPECT_NEAR(time[v], exact[v], 1.5e-3);  // exact for linear T but for a trace of what the sides send in
   }
   EXPECT_GT(checked, 500);
 }
@@ -164,21 +164,6 @@ TEST(Eikonal, RejectsBadSpeed) {
   Mat3 skew = Mat3::Identity();
   skew(0, 1) = 0.5;
   EXPECT_THROW(EikonalSolver(mesh, std::vector<Mat3>(6, skew)), InputError);
-}
-
-TEST(Locate, FindsInsideAndClosestOutside) {
-  const TetMesh mesh = box_mesh(Vec3::Zero(), Vec3(2, 1, 1), {4, 3, 3}, 0.2);
-  std::mt19937_64 random(6);
-  std::uniform_real_distribution<double> uniform(-0.5, 2.5);
-  for (int i = 0; i < 200; ++i) {
-    const Vec3 x(uniform(random), uniform(random), uniform(random));
-    const Vec3 closest = x.cwiseMax(Vec3::Zero()).cwiseMin(Vec3(2, 1, 1));
-    const MeshPoint found = locate(mesh, x);
-    EXPECT_NEAR(found.distance, (x - closest).norm(), 1e-12);
-    EXPECT_LT((position(mesh, found.tet, found.barycentric) - closest).norm(), 1e-12);
-    EXPECT_GE(found.barycentric.minCoeff(), 0);
-  }
-  EXPECT_THROW(locate(mesh, Vec3(std::nan(""), 0, 0)), InputError);
 }
 
 }  // namespace

@@ -98,6 +98,8 @@ TEST(GaussPoints, IntegrateOverAMesh) {
   const Vec3 moment = x * q.weights;
   const Vec3 exact = mesh.tet_volume(0) * mesh.tet_centroid(0) + mesh.tet_volume(1) * mesh.tet_centroid(1);
   EXPECT_LT((moment - exact).norm(), 1e-14 * exact.norm());
+  const Vector heights = interpolate(mesh, mesh.points().row(2).transpose(), q);
+  EXPECT_LT((heights - x.row(2).transpose()).norm(), 1e-14);
 }
 
 }  // namespace

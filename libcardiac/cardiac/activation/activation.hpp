@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include <polyaffine/core/types.hpp>
+#include <polyaffine/mesh/tet_mesh.hpp>
+
+namespace cardiac {
+
+/// Where and when the tissue is excited from outside (pacing site, Purkinje junction).
+struct ActivationSite {
+  polyaffine::Vec3 position;  ///< mm
+  double onset = 0;           ///< ms
+};
+
+/// Conduction velocities, mm/ms (= m/s). Human ventricle: about 0.6 along and 0.3 across (Durrer et al.
+/// 1970).
+struct ConductionVelocity {
+  double along_fibre = 0.6;
+  double across_fibre = 0.3;
+};
+
+/// D = v_l² f⊗f + v_t² (I − f⊗f) for every tet, (mm/ms)²; fibre: unit directions, 3 × tets.
+/// Throws InputError when a velocity is not positive or a fibre is not a unit vector.
+std::vector<polyaffine::Mat3> conduction_tensors(const polyaffine::Points& fibre,
+                                                 const ConductionVelocity& velocity);
+
+/// Time at which every vertex is first excited (ms), from ∇Tᵀ D ∇T = 1 (eikonal equation, Colli Franzone et
+/// al. 1990) with T = onset at the sites. A site may lie up to `largest_gap` (mm) outside the mesh and is
+/// then moved to the closest point. For a uniform activation no equation is needed: the times are a constant.
+/// Throws InputError when there is no site, one is too far from the mesh, or the fibres do not fit the mesh.
+polyaffine::Vector activation_times(const polyaffine::TetMesh& mesh, const polyaffine::Points& fibre,
+                                    const ConductionVelocity& velocity,
+                                    const std::vector<ActivationSite>& sites, double largest_gap = 5);
+
+/// Mean over the volume of every label 0 … count − 1 (a label a tet) of a field given at the vertices.
+/// Throws InputError when a label has no tet.
+polyaffine::Vector region_means(const polyaffine::TetMesh& mesh, const polyaffine::Vector& vertex_values,
+                                const std::vector<int>& label, int count);
+
+}  // namespace cardiac

@@ -1,0 +1,58 @@
+#include "polyaffine/quadrature/elastons.hpp"
+
+#include <stdexcept>
+#include <string>
+
+namespace polyaffine {
+
+Moments tet_moments(const TetMesh& mesh, int t, const Vec3& centre) {
+  const Vec3 c = mesh.tet_centroid(t);
+  Mat3 spread = Mat3::Zero();
+  for (const int v : mesh.tets().col(t)) {
+    const Vec3 d = mesh.points().col(v) - c;
+    spread += d * d.transpose() / 20;
+  }
+  Vec4 at;
+  at << 1, c - centre;
+  Moments m = at * at.transpose();
+  m.bottomRightCorner<3, 3>() += spread;
+  return mesh.tet_volume(t) * m;
+}
+
+std::vector<Elaston> elastons(const TetMesh& mesh, const IntegrationRegions& regions, int order) {
+  if (order != 0 && order != 1)
+    throw std::invalid_argument("elastons: found order " + std::to_string(order) + ", expected 0 or 1");
+  const Points centres = positions(mesh, regions.points);
+  std::vector<Elaston> result(regions.points.size());
+  for (int i = 0; i < regions.points.size(); ++i) result[i] = {centres.col(i), Moments::Zero()};
+  for (int t = 0; t < mesh.num_tets(); ++t) {
+    if (regions.label[t] < 0) continue;
+    Elaston& elaston = result[regions.label[t]];
+    if (order == 1)
+      elaston.moments += tet_moments(mesh, t, elaston.centre);
+    else
+      elaston.moments(0, 0) += mesh.tet_volume(t);
+  }
+  return result;
+}
+
+std::array<Mat3, 4> strain_expansion(const Mat3& f, const std::array<Mat3, 3>& df) {
+  std::array<Mat3, 4> strain;
+  strain[0] = (f.transpose() * f - Mat3::Identity()) / 2;
+  for (int k = 0; k < 3; ++k) {
+    const Mat3 product = f.transpose() * df[k];
+    strain[k + 1] = (product + product.transpose()) / 2;
+  }
+  return strain;
+}
+
+double elaston_energy(const Elaston& elaston, const std::array<Mat3, 4>& strain, double lambda, double mu) {
+  double energy = 0;
+  for (int a = 0; a < 4; ++a)
+    for (int b = 0; b < 4; ++b)
+      energy += elaston.moments(a, b) * (lambda / 2 * strain[a].trace() * strain[b].trace() +
+                                         mu * strain[a].cwiseProduct(strain[b]).sum());
+  return energy;
+}
+
+}  // namespace polyaffine

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <polyaffine/core/types.hpp>
+#include <polyaffine/quadrature/integration_regions.hpp>
+
+namespace polyaffine {
+
+/// Moments of the monomials {1, x, y, z} about a centre, m_ab = ∫ p_a p_b dV with p = [1; X − centre]:
+/// volume (mm³), first (mm⁴) and second moments (mm⁵).
+using Moments = Eigen::Matrix4d;
+
+/// Moments of tet t, exact: its second moments about its centroid c are V/20 Σ_a (x_a − c)(x_a − c)ᵀ.
+Moments tet_moments(const TetMesh& mesh, int t, const Vec3& centre);
+
+/// An integration point that knows the shape of its region (Martin et al. 2010). Order 0 keeps the volume
+/// only (the other moments are zero), order 1 the moments to degree two.
+struct Elaston {
+  Vec3 centre;  ///< the integration point, mm
+  Moments moments;
+};
+
+/// One elaston for each integration region, about its point; the moments are sums over its tets.
+/// Throws std::invalid_argument when order is neither 0 nor 1.
+std::vector<Elaston> elastons(const TetMesh& mesh, const IntegrationRegions& regions, int order);
+
+/// Green–Lagrange strain at the centre and its derivatives, E_0 = ½(FᵀF − I), E_k = sym(Fᵀ ∂F/∂X_k) (1/mm).
+std::array<Mat3, 4> strain_expansion(const Mat3& f, const std::array<Mat3, 3>& df);
+
+/// W = ½ Σ_ab m_ab E_a : H : E_b (µJ) for the isotropic linear law H with Lamé constants λ, µ (kPa) and the
+/// strain E(X) = E_0 + Σ_k E_k (X − centre)_k.
+double elaston_energy(const Elaston& elaston, const std::array<Mat3, 4>& strain, double lambda, double mu);
+
+}  // namespace polyaffine

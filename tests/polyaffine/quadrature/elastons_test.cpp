@@ -1,0 +1,114 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+#include <polyaffine/quadrature/elastons.hpp>
+#include "polyaffine/geometry/box_mesh.hpp"
+
+namespace polyaffine {
+namespace {
+
+constexpr double kLambda = 40, kMu = 10;  // kPa
+
+struct Scene {
+  TetMesh mesh = box_mesh(Vec3(1, -2, 0), Vec3(4, 0, 1), {9, 6, 3}, 0.2);
+  IntegrationRegions regions;
+
+  explicit Scene(int count) {
+    std::mt19937_64 random(9);
+    regions =
+        integration_regions(EikonalSolver(mesh), std::vector<int>(mesh.num_tets(), 0), 1, count, random);
+  }
+};
+
+TEST(Moments, OfABoxAreTheTextbookOnes) {
+  const Scene scene(1);
+  Moments sum = Moments::Zero();
+  for (int t = 0; t < scene.mesh.num_tets(); ++t) sum += tet_moments(scene.mesh, t, Vec3(2.5, -1, 0.5));
+  const Moments exact = 6 * Vec4(1, 9.0 / 12, 4.0 / 12, 1.0 / 12).asDiagonal().toDenseMatrix();  // V l²/12
+  EXPECT_LT((sum - exact).norm(), 1e-12);
+}
+
+// u affine + quadratic with coefficients of order one: the (small) strain is linear in X.
+struct LinearStrain {
+  Mat3 constant;
+  std::array<Mat3, 3> slope;
+
+  LinearStrain() {
+    std::mt19937_64 random(3);
+    std::normal_distribution<double> normal;
+    const auto symmetric = [&] {
+      const Mat3 a = Mat3::NullaryExpr([&] { return normal(random); });
+      return Mat3((a + a.transpose()) / 2);
+    };
+    constant = symmetric();
+    for (Mat3& s : slope) s = symmetric();
+  }
+  Mat3 at(const Vec3& x) const { return constant + x[0] * slope[0] + x[1] * slope[1] + x[2] * slope[2]; }
+};
+
+double total_energy(const Scene& scene, int order) {
+  const LinearStrain field;
+  double energy = 0;
+  for (const Elaston& elaston : elastons(scene.mesh, scene.regions, order))
+    energy += elaston_energy(
+        elaston, {field.at(elaston.centre), field.slope[0], field.slope[1], field.slope[2]}, kLambda, kMu);
+  return energy;
+}
+
+double exact_energy(const TetMesh& mesh) {
+  const LinearStrain field;
+  const QuadraturePoints q = gauss_points(mesh, 2);  // the energy density is quadratic
+  const Points x = positions(mesh, q);
+  double energy = 0;
+  for (int i = 0; i < q.size(); ++i) {
+    const Mat3 e = field.at(x.col(i));
+    energy += q.weights[i] * (kLambda / 2 * e.trace() * e.trace() + kMu * e.squaredNorm());
+  }
+  return energy;
+}
+
+TEST(Elastons, OfOrderOneAreExactForLinearStrain) {
+  for (const int count : {1, 7, 30}) {
+    const Scene scene(count);
+    const double exact = exact_energy(scene.mesh);
+    EXPECT_GT(exact, 100);
+    EXPECT_NEAR(total_energy(scene, 1), exact, 1e-12 * exact);
+  }
+}
+
+TEST(Elastons, OfOrderZeroMissTheBendingAndConverge) {
+  const double exact = exact_energy(Scene(1).mesh);
+  const double coarse = exact - total_energy(Scene(2), 0), fine = exact - total_energy(Scene(64), 0);
+  EXPECT_GT(coarse, 0.02 * exact);
+  // Order two in the size of the regions, whose volume falls by 32: a factor 10, less for shapes that are not
+  // similar.
+  EXPECT_LT(std::abs(fine), coarse / 5);
+}
+
+TEST(StrainExpansion, MatchesFiniteDifferencesOfGreenLagrangeStrain) {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  const auto matrix = [&] { return Mat3(Mat3::NullaryExpr([&] { return normal(random); })); };
+  const Mat3 f = Mat3::Identity() + 0.3 * matrix();
+  const std::array<Mat3, 3> df{matrix(), matrix(), matrix()};
+  const std::array<Mat3, 4> strain = strain_expansion(f, df);
+  for (int k = 0; k < 3; ++k) {
+    constexpr double kStep = 1e-4;  // E is quadratic in X, so central differences are exact but for rounding
+    const Mat3 difference =
+        (strain_expansion(f + kStep * df[k], df)[0] - strain_expansion(f - kStep * df[k], df)[0]) /
+        (2 * kStep);
+    EXPECT_LT((difference - strain[k + 1]).norm(), 1e-10);
+    EXPECT_GT(difference.norm(), 0.1);
+  }
+}
+
+TEST(Elastons, RejectOtherOrders) {
+  const Scene scene(1);
+  EXPECT_THROW(elastons(scene.mesh, scene.regions, 2), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace polyaffine
