@@ -1,6 +1,5 @@
 #include "report_command.hpp"
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -9,12 +8,13 @@
 #include <cardiac/report/page.hpp>
 #include <cardiac/report/result_reader.hpp>
 
+namespace cardiac::app {
 namespace {
 
 void write_report(const std::filesystem::path& folder) {
-  const cardiac::StoredResult stored = cardiac::read_result(folder);
-  cardiac::write_figures(stored.result, folder);
-  cardiac::write_report_page(stored.result, stored.info, folder);
+  const StoredResult stored = read_result(folder);
+  write_figures(stored.result, folder);
+  write_report_page(stored.result, stored.info, folder);
   std::cout << (folder / "report.html").string() << "\n";
 }
 
@@ -26,3 +26,5 @@ void add_report_command(CLI::App& app) {
   command->add_option("RESULT_DIR", *folder, "Folder that `cardiac run` wrote")->required();
   command->callback([folder] { write_report(*folder); });
 }
+
+}  // namespace cardiac::app

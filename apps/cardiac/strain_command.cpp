@@ -1,6 +1,5 @@
 #include "strain_command.hpp"
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -10,6 +9,7 @@
 #include <polyaffine/core/atomic_file.hpp>
 #include <polyaffine/core/error.hpp>
 
+namespace cardiac::app {
 namespace {
 
 struct StrainOptions {
@@ -18,10 +18,10 @@ struct StrainOptions {
 };
 
 void print_strain(const StrainOptions& options) {
-  const cardiac::BeatResult result = cardiac::read_result(options.folder).result;
-  const std::string table = options.frames  ? cardiac::affine_table(result)
-                            : options.peaks ? cardiac::peaks_table(result)
-                                            : cardiac::strain_table(result);
+  const BeatResult result = read_result(options.folder).result;
+  const std::string table = options.frames  ? affine_table(result)
+                            : options.peaks ? peaks_table(result)
+                                            : strain_table(result);
   if (!options.out.empty()) return polyaffine::write_atomically(options.out, table);
   std::cout << table << std::flush;
   if (!std::cout) throw polyaffine::ComputationError("cannot write the table to standard output");
@@ -44,3 +44,5 @@ void add_strain_command(CLI::App& app) {
       ->type_name("FILE.csv");
   command->callback([options] { print_strain(*options); });
 }
+
+}  // namespace cardiac::app

@@ -19,7 +19,7 @@ p.sub{margin:0;color:var(--soft)}
 .alert.stop{border-color:#b2182b;background:#fdecec}
 .alert strong{display:block}
 .alert ul{margin:4px 0 0;padding-left:20px}
-.cards{display:grid;grid-template-columns:repeat(auto-fill,minmax(150px,1fr));gap:12px}
+.cards{display:grid;grid-template-columns:repeat(auto-fill,minmax(168px,1fr));gap:12px}
 .card{background:var(--panel);border:1px solid var(--line);border-radius:8px;padding:10px 14px}
 .card .name{font-size:.85rem;color:var(--soft)}
 .card .value{font-size:1.6rem;font-weight:650;line-height:1.25;white-space:nowrap}

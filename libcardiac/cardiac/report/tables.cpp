@@ -33,6 +33,19 @@ void append(std::string& row, std::initializer_list<double> values) {
   for (const double value : values) (row += ',') += number_text(value);
 }
 
+/// The instants with the digits that the tables show, so that what is derived from them is the same when it
+/// is computed again from the files.
+std::vector<Instant> as_written(std::vector<Instant> instants) {
+  for (Instant& instant : instants) {
+    instant.time_ms = rounded_for_files(instant.time_ms);
+    for (SegmentStrain& s : instant.strain)
+      for (double* value : {&s.longitudinal, &s.circumferential, &s.radial})
+        *value = rounded_for_files(*value);
+    for (SegmentFrame& frame : instant.frames) frame.A = frame.A.unaryExpr(&rounded_for_files);
+  }
+  return instants;
+}
+
 struct Polar {
   double rotation_deg;
   Vec3 stretch;
@@ -79,7 +92,8 @@ std::string peaks_table(const BeatResult& result) {
   }
   text += '\n';
   const auto [ed_ms, es_ms] = cardiac_times(result);
-  const std::vector<SegmentPeaks> peaks = strain_peaks(result.instants, ed_ms, es_ms);
+  const std::vector<SegmentPeaks> peaks =
+      strain_peaks(as_written(result.instants), rounded_for_files(ed_ms), rounded_for_files(es_ms));
   for (size_t i = 0; i < peaks.size(); ++i) {
     text += segment_fields(result.segments.at(i));
     for (const StrainPeak& p : {peaks[i].longitudinal, peaks[i].circumferential, peaks[i].radial})
@@ -93,7 +107,7 @@ std::string affine_table(const BeatResult& result) {
   std::string text =
       "time_ms,segment,name,a_11,a_12,a_13,a_21,a_22,a_23,a_31,a_32,a_33,t_1_mm,t_2_mm,t_3_mm,"
       "rotation_deg,stretch_1,stretch_2,stretch_3\n";
-  for (const Instant& instant : result.instants) {
+  for (const Instant& instant : as_written(result.instants)) {
     for (size_t i = 0; i < instant.frames.size(); ++i) {
       const auto& [A, t] = instant.frames[i];
       const Polar p = polar(A);

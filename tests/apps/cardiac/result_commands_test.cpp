@@ -1,64 +1,58 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdlib>
-
-#include <cardiac/report/csv_reader.hpp>
 #include <cardiac/report/tables.hpp>
 #include "cardiac/report/synthetic_result.hpp"
+#include "program.hpp"
 
-namespace cardiac {
 namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
 class ResultCommands : public ::testing::Test {
  protected:
-  void SetUp() override { write_tables(test::synthetic_beat(), test::synthetic_info(), folder()); }
-
-  fs::path folder() const { return temporary_.path() / "run"; }
-  int run(const std::string& arguments) const {
-    const std::string command = std::string(CARDIAC_PROGRAM) + " " + arguments + " >" +
-                                (temporary_.path() / "stdout").string() + " 2>" +
-                                (temporary_.path() / "stderr").string();
-    return WEXITSTATUS(std::system(command.c_str()));
+  ResultCommands() {
+    cardiac::write_tables(cardiac::test::synthetic_beat(), cardiac::test::synthetic_info(), folder());
   }
-  std::string output() const { return read_text(temporary_.path() / "stdout"); }
-  std::string errors() const { return read_text(temporary_.path() / "stderr"); }
+  fs::path folder() const { return temporary_.path / "run"; }
 
  private:
-  test::TemporaryFolder temporary_;
+  TemporaryFolder temporary_;
 };
 
 TEST_F(ResultCommands, StrainPrintsTheTablesOfTheRun) {
-  ASSERT_EQ(run("strain " + folder().string()), 0) << errors();
-  EXPECT_EQ(output(), read_text(folder() / "strain.csv"));
-  ASSERT_EQ(run("strain " + folder().string() + " --peaks"), 0) << errors();
-  EXPECT_EQ(output(), read_text(folder() / "strain_peaks.csv"));
+  const ProgramRun strain = run_program("strain " + folder().string());
+  ASSERT_EQ(strain.status, 0) << strain.err;
+  EXPECT_EQ(strain.out, whole_file(folder() / "strain.csv"));
+  EXPECT_EQ(run_program("strain " + folder().string() + " --peaks").out,
+            whole_file(folder() / "strain_peaks.csv"));
   const fs::path out = folder() / "frames.csv";
-  ASSERT_EQ(run("strain " + folder().string() + " --frames --out " + out.string()), 0) << errors();
-  EXPECT_EQ(output(), "");
-  EXPECT_THAT(read_text(out), StartsWith("time_ms,segment,name,a_11,"));
+  const ProgramRun frames = run_program("strain " + folder().string() + " --frames --out " + out.string());
+  ASSERT_EQ(frames.status, 0) << frames.err;
+  EXPECT_THAT(frames.out, IsEmpty());
+  EXPECT_EQ(whole_file(out), whole_file(folder() / "affine.csv"));
 }
 
 TEST_F(ResultCommands, ReportIsMadeFromTheFilesAlone) {
-  ASSERT_EQ(run("report " + folder().string()), 0) << errors();
-  EXPECT_THAT(output(), HasSubstr("report.html"));
-  EXPECT_THAT(read_text(folder() / "report.html"), StartsWith("<!DOCTYPE html>"));
-  EXPECT_THAT(read_text(folder() / "pv_loop.svg"), StartsWith("<svg "));
+  const ProgramRun report = run_program("report " + folder().string());
+  ASSERT_EQ(report.status, 0) << report.err;
+  EXPECT_THAT(report.out, HasSubstr("report.html"));
+  EXPECT_THAT(whole_file(folder() / "report.html"), StartsWith("<!DOCTYPE html>"));
+  EXPECT_THAT(whole_file(folder() / "pv_loop.svg"), StartsWith("<svg "));
 }
 
 TEST_F(ResultCommands, WrongInputEndsWithStatusTwoAndNamesThePlace) {
-  EXPECT_EQ(run("strain " + (folder() / "none").string()), 2);
-  EXPECT_THAT(errors(), HasSubstr("no such folder"));
-  EXPECT_EQ(run("strain " + folder().string() + " --frames --peaks"), 2);
+  const ProgramRun missing = run_program("strain " + (folder() / "none").string());
+  EXPECT_EQ(missing.status, 2);
+  EXPECT_THAT(missing.err, HasSubstr("no such folder"));
+  EXPECT_EQ(run_program("strain " + folder().string() + " --frames --peaks").status, 2);
   fs::remove(folder() / "cavity.csv");
-  EXPECT_EQ(run("report " + folder().string()), 2);
-  EXPECT_THAT(errors(), HasSubstr("cavity.csv: no such file"));
+  const ProgramRun incomplete = run_program("report " + folder().string());
+  EXPECT_EQ(incomplete.status, 2);
+  EXPECT_THAT(incomplete.err, HasSubstr("cavity.csv: no such file"));
 }
 
 }  // namespace
-}  // namespace cardiac

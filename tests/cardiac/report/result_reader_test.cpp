@@ -58,11 +58,9 @@ TEST_F(ResultReader, GivesBackWhatWasWritten) {
   // The same tables and summary again: every number was read, to all the digits that were written.
   EXPECT_EQ(strain_table(result), strain_table(r));
   EXPECT_EQ(cavity_table(result), cavity_table(r));
+  EXPECT_EQ(peaks_table(result), peaks_table(r));
+  EXPECT_EQ(affine_table(result), affine_table(r));
   ASSERT_EQ(result.instants.size(), r.instants.size());
-  for (size_t i = 0; i < r.instants.size(); ++i) {
-    EXPECT_TRUE(result.instants[i].frames[9].A.isApprox(r.instants[i].frames[9].A, 1e-8));  // nine digits
-    EXPECT_TRUE((result.instants[i].frames[9].t - r.instants[i].frames[9].t).norm() < 1e-7);
-  }
   EXPECT_EQ(result.stop_reason, r.stop_reason);
   EXPECT_FALSE(result.segments[4].activation_ms.has_value());
   EXPECT_EQ(result.verification.at(0).displacement_error_percent, 0.8);
