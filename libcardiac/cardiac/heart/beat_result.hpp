@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,7 @@ struct SegmentInfo {
   int number = 0;  ///< 1–17, as in the standard
   std::string name;
   double volume_mL = 0;
+  std::optional<double> activation_ms;  ///< mean activation time; none without activation
 };
 
 struct VentricleSummary {
@@ -63,6 +65,15 @@ struct PlanItem {
   std::string why;
 };
 
+/// The reduced state against the full-order solution at one instant; errors in percent of the largest
+/// displacement and of the cavity volume, the largest difference of a segment's normal strain dimensionless.
+struct VerificationInstant {
+  std::string instant;  ///< "ED" or "ES"
+  double time_ms = 0;
+  double displacement_error_percent = 0, volume_error_percent = 0, max_segment_strain_error = 0;
+  double wall_time_s = 0;
+};
+
 /// Everything that the tables, figures and pages tell of a run; no mesh in it.
 struct BeatResult {
   std::string method;     ///< "polyaffine" or "fem"
@@ -76,6 +87,7 @@ struct BeatResult {
   std::vector<VentricleSummary> ventricles;
   GlobalStrain strain;
   double min_det_F = 1, max_det_F = 1;
+  std::vector<VerificationInstant> verification;
   std::vector<PlanItem> plan;
   std::vector<std::string> warnings;
   bool completed = false;

@@ -1,0 +1,249 @@
+#include <cardiac/report/page.hpp>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include <cardiac/report/figures.hpp>
+#include <cardiac/report/page_style.hpp>
+#include <cardiac/report/tables.hpp>
+#include <cardiac/report/text.hpp>
+#include <cardiac/strain/peaks.hpp>
+#include <polyaffine/core/atomic_file.hpp>
+
+namespace cardiac {
+namespace {
+
+std::string cell(const std::string& content, const std::string& classes = "") {
+  return (classes.empty() ? "<td>" : "<td class=\"" + classes + "\">") + escape_markup(content) + "</td>";
+}
+
+std::string count_text(long long count) {
+  std::string text = std::to_string(count);
+  for (int i = static_cast<int>(text.size()) - 3; i > (count < 0 ? 1 : 0); i -= 3)
+    text.insert(static_cast<size_t>(i), "\u202f");
+  return text;
+}
+
+std::string method_name(const BeatResult& r) {
+  if (r.method == "polyaffine") return "reduced (poly-affine)";
+  if (r.method == "fem") return "full order (finite elements)";
+  return r.method;
+}
+
+std::string alerts(const BeatResult& r) {
+  std::string html;
+  if (!r.completed) {
+    html += "<div class=\"alert stop\" role=\"alert\"><strong>This run did not complete.</strong>" +
+            escape_markup(r.stop_reason.empty() ? "No reason was given." : r.stop_reason) +
+            "<br>It reached " + display_text(r.simulated_time_s, 3) +
+            " s of simulated time; what follows is what it had.</div>\n";
+  }
+  if (!r.warnings.empty()) {
+    html +=
+        "<div class=\"alert\"><strong>" +
+        std::string(r.warnings.size() == 1 ? "A warning" : std::to_string(r.warnings.size()) + " warnings") +
+        "</strong><ul>";
+    for (const std::string& warning : r.warnings) html += "<li>" + escape_markup(warning) + "</li>";
+    html += "</ul></div>\n";
+  }
+  return html;
+}
+
+std::string card(const std::string& name, const std::string& value, const std::string& unit,
+                 const std::string& note = "") {
+  std::string html = "<div class=\"card\"><div class=\"name\">" + escape_markup(name) +
+                     "</div><div class=\"value\">" + escape_markup(value) + " <span class=\"unit\">" +
+                     escape_markup(unit) + "</span></div>";
+  if (!note.empty()) html += "<div class=\"note\">" + escape_markup(note) + "</div>";
+  return html + "</div>\n";
+}
+
+std::string ventricle_cards(const VentricleSummary& v, bool has_beat) {
+  if (!has_beat) {
+    if (v.samples.empty()) return "";
+    return card("Volume at the end", display_text(v.samples.back().volume_mL, 1), "mL") +
+           card("Pressure at the end", display_text(v.samples.back().pressure_mmHg, 1), "mmHg") +
+           card("Volume at the start", display_text(v.samples.front().volume_mL, 1), "mL");
+  }
+  const bool left = v.name == "lv";
+  const auto typical = [left](const char* text) { return left ? std::string("typical ") + text : ""; };
+  return card("End-diastolic volume", display_text(v.edv_mL, 1), "mL", typical("90 to 150")) +
+         card("End-systolic volume", display_text(v.esv_mL, 1), "mL") +
+         card("Stroke volume", display_text(v.sv_mL, 1), "mL") +
+         card("Ejection fraction", display_text(v.ef_percent, 1), "%", typical("50 to 70")) +
+         card("Peak pressure", display_text(v.peak_pressure_mmHg, 1), "mmHg", typical("110 to 130")) +
+         card("End-diastolic pressure", display_text(v.edp_mmHg, 1), "mmHg");
+}
+
+std::string headline(const BeatResult& r) {
+  std::string html = "<h2>Headline numbers</h2>\n";
+  for (const VentricleSummary& v : r.ventricles) {
+    const std::string name = v.name == "lv" ? "Left ventricle" : v.name == "rv" ? "Right ventricle" : v.name;
+    html += "<h3>" + escape_markup(name) + "</h3>\n<div class=\"cards\">\n" + ventricle_cards(v, r.has_beat) +
+            "</div>\n";
+  }
+  if (r.instants.empty()) return html + "<p>No strain was computed.</p>\n";
+  const auto typical = [&r](const char* text) { return r.has_beat ? std::string("typical ") + text : ""; };
+  html += "<h3>Global strain of the left ventricle at " +
+          std::string(r.has_beat ? "end systole, against end diastole" : "the end, against the start") +
+          "</h3>\n<div class=\"cards\">\n" +
+          card("Longitudinal (GLS)", display_text(r.strain.gls_percent, 1), "%", typical("about −18")) +
+          card("Circumferential (GCS)", display_text(r.strain.gcs_percent, 1), "%", typical("about −21")) +
+          card("Radial (GRS)", display_text(r.strain.grs_percent, 1), "%", typical("about 44")) +
+          card("Twist", display_text(r.strain.twist_deg, 1), "°", typical("8 to 20")) + "</div>\n";
+  if (r.has_beat)
+    html +=
+        "<p class=\"small\">Typical values are of healthy adults; the strains are from magnetic resonance "
+        "feature tracking, other methods differ.</p>\n";
+  return html;
+}
+
+std::string figure_html(const Figure& figure) {
+  return "<figure>" + figure.svg + "</figure>\n";
+}
+
+std::string figure_sections(const BeatResult& r) {
+  std::string curves, eyes;
+  for (const Figure& figure : figures(r))
+    (figure.file.starts_with("bullseye_") ? eyes : curves) += figure_html(figure);
+  std::string html;
+  if (!curves.empty())
+    html += "<h2>Pressure, volume and strain over " +
+            std::string(r.has_beat ? "the last beat" : "the loading") + "</h2>\n<div class=\"pair\">\n" +
+            curves + "</div>\n";
+  if (!eyes.empty()) html += "<h2>Segments at a glance</h2>\n<div class=\"eyes\">\n" + eyes + "</div>\n";
+  return html;
+}
+
+std::string segment_table_head(bool has_beat) {
+  const std::string span = has_beat ? "4" : "3", end = has_beat ? "ES" : "end";
+  std::string names, columns;
+  for (const char* strain : {"Longitudinal", "Circumferential", "Radial"}) {
+    names += "<th colspan=\"" + span + "\" class=\"group\">" + strain + "</th>";
+    columns += "<th class=\"group\">peak<br>%</th><th>at<br>ms</th><th>" + end + "<br>%</th>";
+    if (has_beat) columns += "<th>PSI<br>%</th>";
+  }
+  return "<thead><tr><th rowspan=\"2\">No.</th><th rowspan=\"2\" class=\"left\">Segment</th>"
+         "<th rowspan=\"2\">Volume<br>mL</th>" +
+         names + "</tr><tr>" + columns + "</tr></thead>";
+}
+
+std::string segment_table(const BeatResult& r) {
+  const auto [ed_ms, es_ms] = cardiac_times(r);
+  const std::vector<SegmentPeaks> peaks = strain_peaks(r.instants, ed_ms, es_ms);
+  if (peaks.empty()) return "";
+  std::string rows;
+  for (size_t i = 0; i < peaks.size(); ++i) {
+    const SegmentInfo& segment = r.segments.at(i);
+    rows += "<tr>" + cell(std::to_string(segment.number)) + cell(segment.name, "left") +
+            cell(display_text(segment.volume_mL, 1));
+    for (const StrainPeak& p : {peaks[i].longitudinal, peaks[i].circumferential, peaks[i].radial}) {
+      rows += cell(display_text(100 * p.value, 1), "group") + cell(display_text(p.time_ms, 0)) +
+              cell(display_text(100 * p.end_systolic, 1));
+      if (r.has_beat) rows += cell(display_text(p.post_systolic_index_percent, 0));
+    }
+    rows += "</tr>\n";
+  }
+  return "<h2>Table of the segments</h2>\n<div class=\"wide\"><table>" + segment_table_head(r.has_beat) +
+         "<tbody>\n" + rows + "</tbody></table></div>\n<p class=\"small\">Lagrangian strain against " +
+         (r.has_beat ? "end diastole" : "the start") +
+         ", averaged over the segment in its local axes. Peak: strongest shortening (longitudinal, "
+         "circumferential) or thickening (radial) over all times; a segment that only lengthens or thins has "
+         "its strongest lengthening or thinning, with that sign." +
+         (r.has_beat ? " PSI: post-systolic index, 100 (peak − ES)/peak where the peak comes outside of "
+                       "systole, otherwise 0."
+                     : "") +
+         "</p>\n";
+}
+
+std::string plan_section(const BeatResult& r) {
+  if (r.plan.empty()) return "";
+  std::string html =
+      "<h2>The plan: what was built and what was left out</h2>\n<div class=\"wide\"><table><thead><tr>"
+      "<th class=\"left\">Part</th><th class=\"left\">Built</th><th "
+      "class=\"left\">Why</th></tr></thead><tbody>\n";
+  for (const PlanItem& item : r.plan)
+    html += "<tr>" + cell(item.part, "left") +
+            (item.built ? "<td class=\"left yes\">built</td>" : "<td class=\"left no\">left out</td>") +
+            cell(item.why, "text") + "</tr>\n";
+  return html + "</tbody></table></div>\n";
+}
+
+std::string verification_section(const BeatResult& r) {
+  if (r.verification.empty()) return "";
+  std::string html =
+      "<h2>Verification against full order</h2>\n<div class=\"wide\"><table><thead><tr><th "
+      "class=\"left\">Instant"
+      "</th><th>Time<br>ms</th><th>Displacement error<br>%</th><th>Volume error<br>%</th><th>Largest segment "
+      "strain error</th><th>Wall time<br>s</th></tr></thead><tbody>\n";
+  for (const VerificationInstant& v : r.verification)
+    html +=
+        "<tr>" + cell(v.instant, "left") + cell(display_text(v.time_ms, 0)) +
+        cell(display_text(v.displacement_error_percent, 2)) + cell(display_text(v.volume_error_percent, 2)) +
+        cell(display_text(v.max_segment_strain_error, 4)) + cell(display_text(v.wall_time_s, 2)) + "</tr>\n";
+  return html + "</tbody></table></div>\n";
+}
+
+std::string run_section(const BeatResult& r, const RunInfo& info) {
+  std::string rows;
+  const auto row = [&rows](const std::string& name, const std::string& value) {
+    rows += "<tr>" + cell(name, "left") + cell(value, "left") + "</tr>\n";
+  };
+  row("Method", method_name(r));
+  row("Mesh", count_text(r.mesh_vertices) + " vertices, " + count_text(r.mesh_tets) + " tetrahedra");
+  row("Unknowns", count_text(r.dofs));
+  if (r.control_nodes > 0) row("Control nodes", count_text(r.control_nodes));
+  row("Integration points", count_text(r.integration_points));
+  if (r.has_beat) row("Beats", count_text(r.beats));
+  row("Time steps", count_text(r.time_steps));
+  row("Newton iterations", count_text(r.newton_iterations));
+  row("det F, smallest to largest", display_text(r.min_det_F, 3) + " to " + display_text(r.max_det_F, 3));
+  row("Simulated time", display_text(r.simulated_time_s, 3) + " s");
+  row("Set-up", display_text(r.wall_setup_s, 2) + " s");
+  row("Solution", display_text(r.wall_solve_s, 2) + " s");
+  row("Output", display_text(r.wall_output_s, 2) + " s");
+  row("Total run time", display_text(r.wall_total_s, 2) + " s");
+  row("Real-time factor (below 1: faster than the heart)",
+      display_text(r.wall_solve_s / r.simulated_time_s, 2));
+  row("Seed", std::to_string(info.seed));
+  return "<h2>Mesh, method and run time</h2>\n<div class=\"wide\"><table class=\"facts\"><tbody>\n" + rows +
+         "</tbody></table></div>\n";
+}
+
+std::string protocol_section(const RunInfo& info) {
+  using Json = nlohmann::ordered_json;
+  const Json protocol = Json::parse(info.protocol_json, nullptr, false);
+  const std::string text = protocol.is_discarded()
+                               ? info.protocol_json
+                               : protocol.dump(2, ' ', false, Json::error_handler_t::replace);
+  return "<details><summary>The protocol as resolved, every default filled in</summary><pre>" +
+         escape_markup(text) + "</pre></details>\n";
+}
+
+std::string folder_title(const std::filesystem::path& out) {
+  const std::filesystem::path whole = std::filesystem::absolute(out).lexically_normal();
+  return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+}
+
+}  // namespace
+
+std::string report_page(const BeatResult& r, const RunInfo& info, const std::string& title) {
+  const std::string name = escape_markup(title), version = escape_markup(info.version);
+  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
+         name + " – cardiac report</title>\n<style>" + std::string(kPageStyle) +
+         "</style>\n</head>\n<body>\n<header>\n<h1>" + name + "</h1>\n<p class=\"sub\">" +
+         (r.has_beat ? "Heart beat" : "Prescribed loading") + ", " + escape_markup(method_name(r)) +
+         ", cardiac " + version + "</p>\n" + alerts(r) + "</header>\n<main>\n" + headline(r) +
+         figure_sections(r) + segment_table(r) + verification_section(r) + plan_section(r) +
+         run_section(r, info) + protocol_section(info) + "</main>\n<footer>Written by cardiac " + version +
+         ". A model, not a measurement: not for diagnosis.</footer>\n</body>\n</html>\n";
+}
+
+void write_report_page(const BeatResult& result, const RunInfo& info, const std::filesystem::path& out) {
+  polyaffine::make_folder(out);
+  polyaffine::write_atomically(out / "report.html", report_page(result, info, folder_title(out)));
+}
+
+}  // namespace cardiac

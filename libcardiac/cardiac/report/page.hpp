@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include <cardiac/report/run_info.hpp>
+
+namespace cardiac {
+
+/// The report of a run as one HTML page that needs nothing beside itself: headline numbers, figures, table of
+/// the segments, plan, verification, mesh, method and run time; warnings and the reason of a run that stopped
+/// come first. Every text is escaped, values that do not exist are dashes.
+std::string report_page(const BeatResult& result, const RunInfo& info, const std::string& title);
+
+/// Writes report.html into the folder `out` (made where missing), whole or not at all; its title is the
+/// folder's name. Errors as of polyaffine::write_atomically.
+void write_report_page(const BeatResult& result, const RunInfo& info, const std::filesystem::path& out);
+
+}  // namespace cardiac

@@ -1,0 +1,102 @@
+#include <cardiac/report/summary.hpp>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include <cardiac/report/text.hpp>
+#include <polyaffine/core/error.hpp>
+
+namespace cardiac {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using polyaffine::InputError;
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(rounded_for_files(value)) : Json(nullptr);
+}
+
+Json ventricle_json(const VentricleSummary& v, bool has_beat) {
+  const auto of_beat = [has_beat](double value) { return has_beat ? number(value) : Json(nullptr); };
+  Json json = {{"edv_mL", of_beat(v.edv_mL)},
+               {"esv_mL", of_beat(v.esv_mL)},
+               {"sv_mL", of_beat(v.sv_mL)},
+               {"ef_percent", of_beat(v.ef_percent)},
+               {"peak_pressure_mmHg", of_beat(v.peak_pressure_mmHg)},
+               {"edp_mmHg", of_beat(v.edp_mmHg)},
+               {"ed_time_ms", number(v.ed_time_ms)},
+               {"es_time_ms", number(v.es_time_ms)}};
+  if (!has_beat && !v.samples.empty()) {
+    json["volume_mL"] = number(v.samples.back().volume_mL);
+    json["pressure_mmHg"] = number(v.samples.back().pressure_mmHg);
+  }
+  return json;
+}
+
+Json protocol_of(const RunInfo& info) {
+  Json protocol = Json::parse(info.protocol_json, nullptr, false);
+  if (protocol.is_discarded()) throw InputError("the resolved protocol of the run is not valid JSON");
+  return protocol;
+}
+
+Json lists_of(const BeatResult& r) {
+  Json verification = Json::array(), plan = Json::array(), segments = Json::array();
+  for (const VerificationInstant& v : r.verification) {
+    verification.push_back({{"instant", v.instant},
+                            {"time_ms", number(v.time_ms)},
+                            {"displacement_error_percent", number(v.displacement_error_percent)},
+                            {"volume_error_percent", number(v.volume_error_percent)},
+                            {"max_segment_strain_error", number(v.max_segment_strain_error)},
+                            {"wall_time_s", number(v.wall_time_s)}});
+  }
+  for (const PlanItem& item : r.plan)
+    plan.push_back({{"part", item.part}, {"built", item.built}, {"why", item.why}});
+  for (const SegmentInfo& s : r.segments) {
+    segments.push_back({{"number", s.number},
+                        {"name", s.name},
+                        {"volume_mL", number(s.volume_mL)},
+                        {"activation_ms", s.activation_ms ? number(*s.activation_ms) : Json(nullptr)}});
+  }
+  return {{"verification", verification}, {"segments", segments}, {"plan", plan}, {"warnings", r.warnings}};
+}
+
+}  // namespace
+
+std::string summary_text(const BeatResult& r, const RunInfo& info) {
+  Json ventricles = Json::object();
+  for (const VentricleSummary& v : r.ventricles) ventricles[v.name] = ventricle_json(v, r.has_beat);
+  Json json = {{"program", "cardiac"},
+               {"version", info.version},
+               {"completed", r.completed},
+               {"stop_reason", r.stop_reason},
+               {"method", r.method},
+               {"seed", info.seed},
+               {"has_beat", r.has_beat},
+               {"mesh", {{"vertices", r.mesh_vertices}, {"tets", r.mesh_tets}}},
+               {"dofs", r.dofs},
+               {"control_nodes", r.control_nodes},
+               {"integration_points", r.integration_points},
+               {"beats", r.beats},
+               {"time_steps", r.time_steps},
+               {"newton_iterations", r.newton_iterations},
+               {"simulated_time_s", number(r.simulated_time_s)},
+               {"wall_time_s",
+                {{"setup", number(r.wall_setup_s)},
+                 {"solve", number(r.wall_solve_s)},
+                 {"output", number(r.wall_output_s)},
+                 {"total", number(r.wall_total_s)}}},
+               {"real_time_factor", number(r.wall_solve_s / r.simulated_time_s)},
+               {"ventricles", ventricles},
+               {"strain",
+                {{"gls_percent", number(r.strain.gls_percent)},
+                 {"gcs_percent", number(r.strain.gcs_percent)},
+                 {"grs_percent", number(r.strain.grs_percent)},
+                 {"twist_deg", number(r.strain.twist_deg)}}},
+               {"min_det_F", number(r.min_det_F)},
+               {"max_det_F", number(r.max_det_F)}};
+  json.update(lists_of(r));
+  json["protocol"] = protocol_of(info);
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace cardiac

@@ -1,0 +1,162 @@
+#include <cardiac/report/summary_reader.hpp>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+#include <polyaffine/core/error.hpp>
+
+namespace cardiac {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using polyaffine::InputError;
+
+/// One place of a JSON document that is read strictly: every miss names file and key.
+class Reader {
+ public:
+  Reader(const Json& json, std::string key, std::string file)
+      : json_(json), key_(std::move(key)), file_(std::move(file)) {}
+
+  Reader at(const std::string& key) const {
+    const std::string full = key_.empty() ? key : key_ + "." + key;
+    expect(json_.is_object(), "an object");
+    if (!json_.contains(key)) throw InputError(file_ + ": the key '" + full + "' is missing");
+    return {json_.at(key), full, file_};
+  }
+  std::vector<Reader> items() const {
+    expect(json_.is_array(), "a list");
+    std::vector<Reader> list;
+    for (const Json& item : json_)
+      list.emplace_back(item, key_ + "[" + std::to_string(list.size()) + "]", file_);
+    return list;
+  }
+  std::vector<std::pair<std::string, Reader>> entries() const {
+    expect(json_.is_object(), "an object");
+    std::vector<std::pair<std::string, Reader>> list;
+    for (const auto& [name, value] : json_.items())
+      list.emplace_back(name, Reader(value, key_ + "." + name, file_));
+    return list;
+  }
+  void operator>>(double& value) const {
+    expect(json_.is_number() || json_.is_null(), "a number or null");
+    value = json_.is_null() ? std::numeric_limits<double>::quiet_NaN() : json_.get<double>();
+  }
+  void operator>>(std::optional<double>& value) const {
+    value.reset();
+    if (!json_.is_null()) *this >> value.emplace();
+  }
+  void operator>>(int& value) const {
+    expect(json_.is_number_integer(), "an integer");
+    value = json_.get<int>();
+  }
+  void operator>>(std::uint64_t& value) const {
+    expect(json_.is_number_unsigned(), "a non-negative integer");
+    value = json_.get<std::uint64_t>();
+  }
+  void operator>>(bool& value) const {
+    expect(json_.is_boolean(), "true or false");
+    value = json_.get<bool>();
+  }
+  void operator>>(std::string& value) const {
+    expect(json_.is_string(), "a text");
+    value = json_.get<std::string>();
+  }
+  std::string dump() const { return json_.dump(2); }
+
+ private:
+  void expect(bool fits, const char* what) const {
+    if (fits) return;
+    throw InputError(file_ + ": '" + key_ + "' is " + json_.type_name() + ", expected " + what);
+  }
+
+  const Json& json_;
+  std::string key_, file_;
+};
+
+void read_ventricles(const Reader& reader, BeatResult& r) {
+  for (const auto& [name, json] : reader.entries()) {
+    VentricleSummary& v = r.ventricles.emplace_back();
+    v.name = name;
+    json.at("edv_mL") >> v.edv_mL;
+    json.at("esv_mL") >> v.esv_mL;
+    json.at("sv_mL") >> v.sv_mL;
+    json.at("ef_percent") >> v.ef_percent;
+    json.at("peak_pressure_mmHg") >> v.peak_pressure_mmHg;
+    json.at("edp_mmHg") >> v.edp_mmHg;
+    json.at("ed_time_ms") >> v.ed_time_ms;
+    json.at("es_time_ms") >> v.es_time_ms;
+  }
+}
+
+void read_lists(const Reader& reader, BeatResult& r) {
+  for (const Reader& json : reader.at("verification").items()) {
+    VerificationInstant& v = r.verification.emplace_back();
+    json.at("instant") >> v.instant;
+    json.at("time_ms") >> v.time_ms;
+    json.at("displacement_error_percent") >> v.displacement_error_percent;
+    json.at("volume_error_percent") >> v.volume_error_percent;
+    json.at("max_segment_strain_error") >> v.max_segment_strain_error;
+    json.at("wall_time_s") >> v.wall_time_s;
+  }
+  for (const Reader& json : reader.at("segments").items()) {
+    SegmentInfo& s = r.segments.emplace_back();
+    json.at("number") >> s.number;
+    json.at("name") >> s.name;
+    json.at("volume_mL") >> s.volume_mL;
+    json.at("activation_ms") >> s.activation_ms;
+  }
+  for (const Reader& json : reader.at("plan").items()) {
+    PlanItem& item = r.plan.emplace_back();
+    json.at("part") >> item.part;
+    json.at("built") >> item.built;
+    json.at("why") >> item.why;
+  }
+  for (const Reader& json : reader.at("warnings").items()) json >> r.warnings.emplace_back();
+}
+
+}  // namespace
+
+StoredResult parse_summary(const std::string& text, const std::filesystem::path& file) {
+  Json json;
+  try {
+    json = Json::parse(text);
+  } catch (const Json::parse_error& error) {
+    throw InputError(file.string() + ": not valid JSON, " + error.what());
+  }
+  const Reader reader(json, "", file.string());
+  StoredResult stored;
+  BeatResult& r = stored.result;
+  reader.at("version") >> stored.info.version;
+  reader.at("seed") >> stored.info.seed;
+  stored.info.protocol_json = reader.at("protocol").dump();
+  reader.at("completed") >> r.completed;
+  reader.at("stop_reason") >> r.stop_reason;
+  reader.at("method") >> r.method;
+  reader.at("has_beat") >> r.has_beat;
+  reader.at("mesh").at("vertices") >> r.mesh_vertices;
+  reader.at("mesh").at("tets") >> r.mesh_tets;
+  reader.at("dofs") >> r.dofs;
+  reader.at("control_nodes") >> r.control_nodes;
+  reader.at("integration_points") >> r.integration_points;
+  reader.at("beats") >> r.beats;
+  reader.at("time_steps") >> r.time_steps;
+  reader.at("newton_iterations") >> r.newton_iterations;
+  reader.at("simulated_time_s") >> r.simulated_time_s;
+  reader.at("wall_time_s").at("setup") >> r.wall_setup_s;
+  reader.at("wall_time_s").at("solve") >> r.wall_solve_s;
+  reader.at("wall_time_s").at("output") >> r.wall_output_s;
+  reader.at("wall_time_s").at("total") >> r.wall_total_s;
+  read_ventricles(reader.at("ventricles"), r);
+  reader.at("strain").at("gls_percent") >> r.strain.gls_percent;
+  reader.at("strain").at("gcs_percent") >> r.strain.gcs_percent;
+  reader.at("strain").at("grs_percent") >> r.strain.grs_percent;
+  reader.at("strain").at("twist_deg") >> r.strain.twist_deg;
+  reader.at("min_det_F") >> r.min_det_F;
+  reader.at("max_det_F") >> r.max_det_F;
+  read_lists(reader, r);
+  return stored;
+}
+
+}  // namespace cardiac

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include <cardiac/heart/beat_result.hpp>
+
+namespace cardiac {
+
+/// One normal strain of one segment over a beat; strains dimensionless, against end diastole.
+struct StrainPeak {
+  double value = 0;                        ///< peak over the whole beat
+  double time_ms = 0;                      ///< when it is reached; the earliest of equal values
+  double systolic = 0;                     ///< peak between ED and ES, both included
+  double end_systolic = 0;                 ///< at ES, linear between output times
+  double post_systolic_index_percent = 0;  ///< 0 without post-systolic deformation
+};
+
+struct SegmentPeaks {
+  StrainPeak longitudinal, circumferential, radial;
+};
+
+/// Peaks of the three normal strains of every segment, in the order of the instants' strains.
+///
+/// The peak of longitudinal and circumferential strain is the most negative value (shortening), of radial
+/// strain the most positive (thickening). A segment that never deforms that way by more than 0.001 has its
+/// strongest opposite deformation instead, so that lengthening or thinning shows in the sign; below 0.001
+/// both ways the larger counts. Post-systolic index = 100 (peak − ES)/peak, 0 unless the peak has the
+/// expected sign and comes outside of systole; above 100 where the segment was stretched at ES and shortens
+/// only later. Systole goes from `ed_time_ms` to `es_time_ms`, over the end of the beat where ES comes first.
+/// Times in ms; ES outside the output times takes the nearest one. Non-finite strains are skipped; without
+/// any finite one all values are NaN. No instants, no peaks.
+///
+/// Definitions: Voigt et al. 2015 (Eur. Heart J. Cardiovasc. Imaging 16:1–11); the index Kukulski et al. 2003
+/// (J. Am. Coll. Cardiol. 41:810–819).
+std::vector<SegmentPeaks> strain_peaks(const std::vector<Instant>& instants, double ed_time_ms,
+                                       double es_time_ms);
+
+}  // namespace cardiac
