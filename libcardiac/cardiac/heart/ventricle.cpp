@@ -1,0 +1,163 @@
+#include "cardiac/heart/ventricle.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include <cardiac/activation/activation.hpp>
+#include <cardiac/fibres/helix.hpp>
+#include <polyaffine/core/error.hpp>
+#include <polyaffine/energy/springs.hpp>
+#include <polyaffine/material/signed_volume.hpp>
+
+namespace cardiac {
+
+using polyaffine::FieldEnergy;
+using polyaffine::Vec3;
+using polyaffine::Vec4;
+using polyaffine::Vector;
+
+namespace {
+
+std::vector<ActivationSite> sites(const Anatomy& anatomy, const protocol::Activation& activation) {
+  std::vector<ActivationSite> out;
+  for (const auto& X : activation.sites_mm) out.push_back({Vec3(X.data()), activation.onset_ms});
+  for (const int segment : activation.site_segments) {
+    // The endocardial vertex nearest to the middle of the segment's own endocardial vertices.
+    std::vector<int> own;
+    Vec3 middle = Vec3::Zero();
+    for (const int p : anatomy.mesh.surface_points({anatomy.labels.endo})) {
+      const Vec3 X = anatomy.mesh.points().col(p);
+      if (aha_segment(anatomy.coordinates->long_axis_height(X), anatomy.coordinates->angle(X)) != segment)
+        continue;
+      own.push_back(p);
+      middle += X;
+    }
+    if (own.empty())
+      throw polyaffine::InputError(
+          "activation.site_segments: segment " + std::to_string(segment) +
+          " has no point on the endocardium, expected one that the cavity touches (1 to 16)");
+    middle /= static_cast<double>(own.size());
+    const int nearest = *std::min_element(own.begin(), own.end(), [&](int a, int b) {
+      return (anatomy.mesh.points().col(a) - middle).norm() < (anatomy.mesh.points().col(b) - middle).norm();
+    });
+    out.push_back({anatomy.mesh.points().col(nearest), activation.onset_ms});
+  }
+  return out;
+}
+
+// Activation time of each integration point, ms.
+Vector activation(const Anatomy& anatomy, const Protocol& protocol, const polyaffine::WallPoints& points) {
+  const auto& a = *protocol.activation;
+  const auto n = static_cast<Eigen::Index>(points.tet.size());
+  if (a.mode == protocol::ActivationMode::uniform) return Vector::Constant(n, a.onset_ms);
+  const HelixAngles angles{protocol.fibres->endo_angle_deg, protocol.fibres->epi_angle_deg,
+                           protocol.fibres->sheet_angle_deg};
+  polyaffine::Points fibre(3, anatomy.mesh.num_tets());
+  for (int t = 0; t < anatomy.mesh.num_tets(); ++t)
+    fibre.col(t) = helix_axes(anatomy.coordinates->sample(t, Vec4::Constant(0.25)), angles).col(0);
+  const Vector at_vertices = activation_times(
+      anatomy.mesh, fibre, {a.conduction_along_fibre_mm_per_ms, a.conduction_across_fibre_mm_per_ms},
+      sites(anatomy, a));
+  Vector out(n);
+  for (Eigen::Index q = 0; q < n; ++q)
+    out[q] = points.barycentric.col(q).dot(at_vertices(anatomy.mesh.tets().col(points.tet[q])));
+  return out;
+}
+
+std::shared_ptr<const ContractionField> build_contraction(const Anatomy& anatomy, const Protocol& protocol,
+                                                          const polyaffine::WallPoints& points,
+                                                          const RegionFactors& factors) {
+  const auto& c = *protocol.contraction;
+  const BestelParameters parameters{c.activation_rate_per_s / 1000,
+                                    c.relaxation_rate_per_s / 1000,
+                                    c.contractility_kPa,
+                                    0,
+                                    c.activation_duration_ms,
+                                    c.switch_width_ms};
+  const double period =
+      protocol.circulation ? 60000 / protocol.time.heart_rate_bpm : protocol.time.duration_ms;
+  ContractionField out{TensionCurve(parameters, period), activation(anatomy, protocol, points),
+                       Vector::Ones(static_cast<Eigen::Index>(points.tet.size()))};
+  if (!factors.tension.empty()) {
+    out.scale = Eigen::Map<const Vector>(factors.tension.data(), out.scale.size());
+    out.delay_ms += Eigen::Map<const Vector>(factors.delay_ms.data(), out.scale.size());
+  }
+  return std::make_shared<ContractionField>(std::move(out));
+}
+
+std::shared_ptr<const FieldEnergy> normal_spring(const polyaffine::Basis& basis,
+                                                 const polyaffine::SurfacePoints& points, double stiffness) {
+  polyaffine::Points normals(3, points.X.cols());
+  for (Eigen::Index q = 0; q < points.X.cols(); ++q)
+    normals.col(q) = Vec3(points.X_xi.col(q)).cross(Vec3(points.X_eta.col(q))).normalized();
+  return std::make_shared<FieldEnergy>(
+      polyaffine::displacement_table(basis, points),
+      std::vector<std::shared_ptr<const polyaffine::Law>>{
+          std::make_shared<polyaffine::SurfaceSpring>(stiffness, std::move(normals))});
+}
+
+}  // namespace
+
+Vector ContractionField::tension(double time_ms) const {
+  Vector tension(delay_ms.size()), rate(delay_ms.size());
+  curve.evaluate(time_ms, delay_ms, scale, tension, rate);
+  return tension;
+}
+
+std::unique_ptr<polyaffine::LinearSystem> Ventricle::make_system() const {
+  if (!discretisation.sparse) return polyaffine::dense_system(num_coefficients(), discretisation.fixed);
+  std::vector<const polyaffine::FieldTable*> tables{&wall->table()};
+  if (cavity) tables.push_back(&cavity->table());
+  for (const auto& spring : springs) tables.push_back(&spring->table());
+  return polyaffine::sparse_system(tables, discretisation.fixed);
+}
+
+Ventricle build_ventricle(std::shared_ptr<const Anatomy> anatomy, const Protocol& protocol,
+                          protocol::Method method) {
+  Ventricle out;
+  out.discretisation = method == protocol::Method::fem ? full_discretisation(*anatomy, protocol)
+                                                       : reduced_discretisation(*anatomy, protocol);
+  const auto& d = out.discretisation;
+  const RegionFactors factors = region_factors(*anatomy, protocol, d.points);
+  out.wall = build_wall(*anatomy, protocol, d, factors);
+  if (!d.cavity_points.tet.empty())
+    out.cavity = std::make_shared<FieldEnergy>(
+        polyaffine::surface_table(*d.basis, d.cavity_points, anatomy->coordinates->base_centre()),
+        std::vector<std::shared_ptr<const polyaffine::Law>>{
+            std::make_shared<polyaffine::SignedVolume>(1.0 / 3)});
+  if (!d.epicardium_points.tet.empty())
+    out.springs.push_back(
+        normal_spring(*d.basis, d.epicardium_points, protocol.boundary.epicardial_stiffness_kPa_per_mm));
+  if (protocol.contraction) out.contraction = build_contraction(*anatomy, protocol, d.points, factors);
+  out.anatomy = std::move(anatomy);
+  return out;
+}
+
+polyaffine::EquilibriumProblem loaded_ventricle(const Ventricle& ventricle, double pressure_kPa,
+                                                const Vector& tension) {
+  polyaffine::EquilibriumProblem problem;
+  polyaffine::PotentialTerm wall{ventricle.wall};
+  if (tension.size() > 0) {
+    const auto scaled = std::make_shared<Vector>(tension.size());
+    wall.state = [&tension, scaled](double load) {
+      *scaled = load * tension;
+      return polyaffine::PointState(scaled->data(), scaled->size());
+    };
+  }
+  problem.terms.push_back(std::move(wall));
+  if (ventricle.cavity && pressure_kPa != 0) {
+    polyaffine::PotentialTerm cavity{ventricle.cavity};
+    cavity.scale = [pressure_kPa](double load) { return -load * pressure_kPa; };
+    cavity.wall = false;
+    problem.terms.push_back(std::move(cavity));
+  }
+  for (const auto& spring : ventricle.springs) {
+    polyaffine::PotentialTerm term{spring};
+    term.wall = false;
+    problem.terms.push_back(std::move(term));
+  }
+  problem.fixed = ventricle.discretisation.fixed;
+  return problem;
+}
+
+}  // namespace cardiac
