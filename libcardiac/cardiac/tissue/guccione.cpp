@@ -62,7 +62,7 @@ void Guccione::evaluate(int first, int count, const double* F, PointState, doubl
                     }
                     add_lagrangian(local, l, tangent, r);
                     from_local_axes(R, tangent, r);
-                    factor_.apply(points, r);
+                    factor_.apply(points, tangent, r);
                   });
 }
 

@@ -84,7 +84,7 @@ void HolzapfelOgden::evaluate(int first, int count, const double* F, PointState,
 
                     add_lagrangian(local, l, tangent, r);
                     from_local_axes(R, tangent, r);
-                    factor_.apply(points, r);
+                    factor_.apply(points, tangent, r);
                   });
 }
 

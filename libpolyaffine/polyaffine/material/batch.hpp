@@ -20,8 +20,18 @@ struct PackResponse {
   Pack A[9][9];
 };
 
+/// Sets W, P and, with `tangent`, A to zero.
+inline void clear(PackResponse& r, bool tangent) {
+  r.W = broadcast(0);
+  for (Pack& p : r.P) p = broadcast(0);
+  if (!tangent) return;
+  for (auto& row : r.A)
+#pragma GCC unroll 9
+    for (Pack& a : row) a = broadcast(0);
+}
+
 /// The loop of every law: walks over the points of Law::evaluate pack by pack, lets
-/// `kernel(PackPoints, const Mat3Pack& F, bool tangent, PackResponse& zeroed)` fill in the response and adds
+/// `kernel(PackPoints, const Mat3Pack& F, bool tangent, PackResponse& cleared)` fill in the response and adds
 /// it to the outputs that are not null. Without `tangent` the kernel may leave A alone.
 template <class Kernel>
 void evaluate_packed(int first, int count, const double* F, double* W, double* P, double* A,
@@ -30,22 +40,24 @@ void evaluate_packed(int first, int count, const double* F, double* W, double* P
     const int lanes = std::min(kLanes, count - start);
     Mat3Pack pack;
     for (int i = 0; i < 9; ++i) pack.m[i] = gather(F + 9 * start + i, 9, lanes);
-    PackResponse r{};
+    PackResponse r;
+    clear(r, A != nullptr);
     kernel(PackPoints{first + start, lanes}, pack, A != nullptr, r);
     if (W) scatter_add(W + start, 1, lanes, r.W);
-    if (P)
-      for (int i = 0; i < 9; ++i) scatter_add(P + 9 * start + i, 9, lanes, r.P[i]);
-    if (A)
-      for (int j = 0; j < 9; ++j)
-        for (int i = 0; i < 9; ++i)
-          scatter_add(A + 81 * start + i + 9 * j, 81, lanes, i >= j ? r.A[i][j] : r.A[j][i]);
+    if (P) scatter_add_points<9>(P + 9 * start, lanes, r.P);
+    if (A) {
+      for (int row = 0; row < 9; ++row)
+        for (int column = row + 1; column < 9; ++column) r.A[row][column] = r.A[column][row];
+      scatter_add_points<81>(A + 81 * start, lanes, r.A[0]);
+    }
   }
 }
 
-/// Multiplies energy, stress and tangent by a factor per point.
-inline void scale(PackResponse& r, const Pack& factor) {
+/// Multiplies energy, stress and, with `tangent`, the tangent by a factor per point.
+inline void scale(const Pack& factor, bool tangent, PackResponse& r) {
   r.W *= factor;
   for (Pack& p : r.P) p *= factor;
+  if (!tangent) return;
   for (int i = 0; i < 9; ++i)
     for (int j = 0; j <= i; ++j) r.A[i][j] *= factor;
 }

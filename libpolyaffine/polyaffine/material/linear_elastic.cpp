@@ -10,7 +10,7 @@ LinearElastic::LinearElastic(const Elasticity& elasticity, std::vector<double> f
 void LinearElastic::evaluate(int first, int count, const double* F, PointState, double* W, double* P,
                              double* A) const {
   evaluate_packed(
-      first, count, F, W, P, A, [this](PackPoints points, const Mat3Pack& f, bool, PackResponse& r) {
+      first, count, F, W, P, A, [this](PackPoints points, const Mat3Pack& f, bool tangent, PackResponse& r) {
         const auto [lambda, mu] = lame_;
         const Pack trace = f(0, 0) + f(1, 1) + f(2, 2) - 3;
         r.W = 0.5 * lambda * trace * trace;
@@ -21,13 +21,14 @@ void LinearElastic::evaluate(int first, int count, const double* F, PointState, 
             r.W += mu * strain * strain;
             r.P[a] = 2 * mu * strain;
             if (i == j) r.P[a] += lambda * trace;
+            if (!tangent) continue;
             for (int b = 0; b <= a; ++b) {
               const int k = b % 3, l = b / 3;
               r.A[a][b] =
                   broadcast(lambda * (i == j && k == l) + mu * (i == k && j == l) + mu * (i == l && j == k));
             }
           }
-        factor_.apply(points, r);
+        factor_.apply(points, tangent, r);
       });
 }
 

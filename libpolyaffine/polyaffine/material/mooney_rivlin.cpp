@@ -29,7 +29,7 @@ void MooneyRivlin::evaluate(int first, int count, const double* F, PointState, d
         for (int a = 3; a < 6; ++a) l.CC[a][a] -= 2 * c2;
         make_isochoric(strain, tangent, l);
         add_lagrangian(f, l, tangent, r);
-        factor_.apply(points, r);
+        factor_.apply(points, tangent, r);
       });
 }
 

@@ -24,10 +24,10 @@ void NeoHookean::evaluate(int first, int count, const double* F, PointState, dou
         for (int a = 0; a < 9; ++a) {
           I1 += f.m[a] * f.m[a];
           r.P[a] += mu * f.m[a];
-          r.A[a][a] += mu;
+          if (tangent) r.A[a][a] += mu;
         }
         r.W += 0.5 * mu * (I1 - 3);
-        factor_.apply(points, r);
+        factor_.apply(points, tangent, r);
       });
 }
 
@@ -47,7 +47,7 @@ void IsochoricNeoHookean::evaluate(int first, int count, const double* F, PointS
         for (int i = 0; i < 3; ++i) l.S.v[i] = broadcast(shear_modulus_);
         make_isochoric(strain, tangent, l);
         add_lagrangian(f, l, tangent, r);
-        factor_.apply(points, r);
+        factor_.apply(points, tangent, r);
       });
 }
 

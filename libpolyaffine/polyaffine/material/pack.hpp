@@ -34,6 +34,31 @@ inline void scatter_add(double* base, int stride, int lanes, const Pack& v) {
   for (int lane = 0; lane < lanes; ++lane) base[stride * lane] += v[lane];
 }
 
+/// Adds entry i of every point, v[i][lane], to base[size · lane + i]: `size` numbers a point, points one
+/// after the other. Full packs go through a transposition in registers.
+template <int size>
+void scatter_add_points(double* base, int lanes, const Pack* v) {
+  int i = 0;
+#ifdef __AVX__
+  using Unaligned = double __attribute__((vector_size(8 * kLanes), aligned(8), may_alias));
+  const auto at = [base](int lane, int entry) {
+    return reinterpret_cast<Unaligned*>(base + size * lane + entry);
+  };
+  if (lanes == kLanes)
+    for (; i + 4 <= size; i += 4) {
+      const Pack a = __builtin_shufflevector(v[i], v[i + 1], 0, 4, 2, 6);
+      const Pack b = __builtin_shufflevector(v[i], v[i + 1], 1, 5, 3, 7);
+      const Pack c = __builtin_shufflevector(v[i + 2], v[i + 3], 0, 4, 2, 6);
+      const Pack d = __builtin_shufflevector(v[i + 2], v[i + 3], 1, 5, 3, 7);
+      *at(0, i) += __builtin_shufflevector(a, c, 0, 1, 4, 5);
+      *at(1, i) += __builtin_shufflevector(b, d, 0, 1, 4, 5);
+      *at(2, i) += __builtin_shufflevector(a, c, 2, 3, 6, 7);
+      *at(3, i) += __builtin_shufflevector(b, d, 2, 3, 6, 7);
+    }
+#endif
+  for (; i < size; ++i) scatter_add(base + i, size, lanes, v[i]);
+}
+
 inline Pack broadcast(double value) {
   return Pack{} + value;
 }

@@ -39,8 +39,8 @@ class StiffnessFactor {
   Pack at(PackPoints points) const {
     return values_.empty() ? broadcast(1) : gather(values_.data() + points.point, 1, points.lanes);
   }
-  void apply(PackPoints points, PackResponse& r) const {
-    if (!values_.empty()) scale(r, at(points));
+  void apply(PackPoints points, bool tangent, PackResponse& r) const {
+    if (!values_.empty()) scale(at(points), tangent, r);
   }
 
  private:

@@ -25,7 +25,7 @@ void SaintVenantKirchhoff::evaluate(int first, int count, const double* F, Point
             l.CC[a][b] = broadcast((a < 3 && b < 3 ? lambda : 0) + (a == b ? (a < 3 ? 2 : 1) * mu : 0));
         }
         add_lagrangian(f, l, tangent, r);
-        factor_.apply(points, r);
+        factor_.apply(points, tangent, r);
       });
 }
 

@@ -41,26 +41,28 @@ void KelvinVoigt::evaluate(int first, int count, const double* F, const double* 
       S.v[a] = broadcast(0);
       for (int m = 0; m < 3; ++m) S.v[a] += half_eta * (f(m, i) * rate(m, j) + rate(m, i) * f(m, j));
     }
-    PackResponse r{};
-    add_constant_stress(f, broadcast(0), S, A != nullptr, r);
-    if (P)
-      for (int i = 0; i < 9; ++i) scatter_add(P + 9 * start + i, 9, lanes, r.P[i]);
+    PackResponse r;
+    clear(r, false);
+    add_constant_stress(f, broadcast(0), S, false, r);
+    if (P) scatter_add_points<9>(P + 9 * start, lanes, r.P);
     if (!A_dot && !A) continue;
 
     const Mat3Pack b = multiply_transposed(f, f), g = multiply_transposed(f, rate);
+    Pack by_rate[81], by_F[81];
     for (int column = 0; column < 9; ++column)
       for (int row = 0; row < 9; ++row) {
-        const int i = row % 3, J = row / 3, k = column % 3, L = column / 3, entry = row + 9 * column;
+        const int i = row % 3, J = row / 3, k = column % 3, L = column / 3;
         Pack v_dot = f(i, L) * f(k, J), v = f(i, L) * rate(k, J);
         if (J == L) {
           v_dot += b(i, k);
           v += g(i, k);
         }
-        if (A_dot) scatter_add(A_dot + 81 * start + entry, 81, lanes, half_eta * v_dot);
-        if (A)
-          scatter_add(A + 81 * start + entry, 81, lanes,
-                      half_eta * v + r.A[std::max(row, column)][std::min(row, column)]);
+        by_rate[row + 9 * column] = half_eta * v_dot;
+        by_F[row + 9 * column] = half_eta * v;
+        if (i == k) by_F[row + 9 * column] += S(J, L);
       }
+    if (A_dot) scatter_add_points<81>(A_dot + 81 * start, lanes, by_rate);
+    if (A) scatter_add_points<81>(A + 81 * start, lanes, by_F);
   }
 }
 

@@ -18,7 +18,7 @@ void QuadraticVolumetric::evaluate(int first, int count, const double* F, PointS
                     const Pack dJ = determinant(f, cof) - 1;
                     const Pack kappa = broadcast(bulk_modulus_);
                     add_volumetric(f, cof, {0.5 * kappa * dJ * dJ, kappa * dJ, kappa}, tangent, r);
-                    factor_.apply(points, r);
+                    factor_.apply(points, tangent, r);
                   });
 }
 
@@ -38,7 +38,7 @@ void LogarithmicVolumetric::evaluate(int first, int count, const double* F, Poin
                                    {0.25 * kappa * (J * J - 1 - 2 * log(J)), 0.5 * kappa * (J - inverse),
                                     0.5 * kappa * (1 + inverse * inverse)},
                                    tangent, r);
-                    factor_.apply(points, r);
+                    factor_.apply(points, tangent, r);
                   });
 }
 
