@@ -38,17 +38,18 @@ void evaluate_packed(int first, int count, const double* F, double* W, double* P
                      const Kernel& kernel) {
   for (int start = 0; start < count; start += kLanes) {
     const int lanes = std::min(kLanes, count - start);
+    const std::ptrdiff_t offset = start;
     Mat3Pack pack;
-    for (int i = 0; i < 9; ++i) pack.m[i] = gather(F + 9 * start + i, 9, lanes);
+    for (int i = 0; i < 9; ++i) pack.m[i] = gather(F + 9 * offset + i, 9, lanes);
     PackResponse r;
     clear(r, A != nullptr);
     kernel(PackPoints{first + start, lanes}, pack, A != nullptr, r);
-    if (W) scatter_add(W + start, 1, lanes, r.W);
-    if (P) scatter_add_points<9>(P + 9 * start, lanes, r.P);
+    if (W) scatter_add(W + offset, 1, lanes, r.W);
+    if (P) scatter_add_points<9>(P + 9 * offset, lanes, r.P);
     if (A) {
       for (int row = 0; row < 9; ++row)
         for (int column = row + 1; column < 9; ++column) r.A[row][column] = r.A[column][row];
-      scatter_add_points<81>(A + 81 * start, lanes, r.A[0]);
+      scatter_add_points<81>(A + 81 * offset, lanes, r.A[0]);
     }
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 namespace polyaffine {
@@ -23,25 +24,25 @@ struct Mat3Pack {
 
 /// Reads base[0], base[stride], … one per lane. Lanes from `lanes` on repeat the last valid one, so that the
 /// end of a batch computes on ordinary numbers.
-inline Pack gather(const double* base, int stride, int lanes) {
+inline Pack gather(const double* base, std::ptrdiff_t stride, int lanes) {
   Pack v;
   for (int lane = 0; lane < kLanes; ++lane) v[lane] = base[stride * (lane < lanes ? lane : lanes - 1)];
   return v;
 }
 
 /// Adds lane l of `v` to base[l · stride] for the first `lanes` lanes.
-inline void scatter_add(double* base, int stride, int lanes, const Pack& v) {
+inline void scatter_add(double* base, std::ptrdiff_t stride, int lanes, const Pack& v) {
   for (int lane = 0; lane < lanes; ++lane) base[stride * lane] += v[lane];
 }
 
 /// Adds entry i of every point, v[i][lane], to base[size · lane + i]: `size` numbers a point, points one
 /// after the other. Full packs go through a transposition in registers.
-template <int size>
+template <std::ptrdiff_t size>
 void scatter_add_points(double* base, int lanes, const Pack* v) {
-  int i = 0;
+  std::ptrdiff_t i = 0;
 #ifdef __AVX__
   using Unaligned = double __attribute__((vector_size(8 * kLanes), aligned(8), may_alias));
-  const auto at = [base](int lane, int entry) {
+  const auto at = [base](std::ptrdiff_t lane, std::ptrdiff_t entry) {
     return reinterpret_cast<Unaligned*>(base + size * lane + entry);
   };
   if (lanes == kLanes)

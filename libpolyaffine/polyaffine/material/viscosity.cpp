@@ -32,7 +32,8 @@ void KelvinVoigt::evaluate(int first, int count, const double* F, const double* 
                            double* A_dot, double* A) const {
   for (int start = 0; start < count; start += kLanes) {
     const int lanes = std::min(kLanes, count - start);
-    const Mat3Pack f = gather_matrix(F + 9 * start, lanes), rate = gather_matrix(F_dot + 9 * start, lanes);
+    const std::ptrdiff_t offset = start;
+    const Mat3Pack f = gather_matrix(F + 9 * offset, lanes), rate = gather_matrix(F_dot + 9 * offset, lanes);
     const Pack half_eta = 0.5 * viscosity_ * factor_.at({first + start, lanes});
 
     SymPack S;
@@ -44,7 +45,7 @@ void KelvinVoigt::evaluate(int first, int count, const double* F, const double* 
     PackResponse r;
     clear(r, false);
     add_constant_stress(f, broadcast(0), S, false, r);
-    if (P) scatter_add_points<9>(P + 9 * start, lanes, r.P);
+    if (P) scatter_add_points<9>(P + 9 * offset, lanes, r.P);
     if (!A_dot && !A) continue;
 
     const Mat3Pack b = multiply_transposed(f, f), g = multiply_transposed(f, rate);
@@ -61,8 +62,8 @@ void KelvinVoigt::evaluate(int first, int count, const double* F, const double* 
         by_F[row + 9 * column] = half_eta * v;
         if (i == k) by_F[row + 9 * column] += S(J, L);
       }
-    if (A_dot) scatter_add_points<81>(A_dot + 81 * start, lanes, by_rate);
-    if (A) scatter_add_points<81>(A + 81 * start, lanes, by_F);
+    if (A_dot) scatter_add_points<81>(A_dot + 81 * offset, lanes, by_rate);
+    if (A) scatter_add_points<81>(A + 81 * offset, lanes, by_F);
   }
 }
 

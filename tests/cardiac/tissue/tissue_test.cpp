@@ -113,6 +113,26 @@ TEST(Guccione, StretchAlongAndAcrossTheFibreAndShear) {
   EXPECT_NEAR(respond(law, simple_shear(g)).W, std::exp(Q) - 1, 1e-14);
 }
 
+// The energy written out with plain numbers, in the fibre axes.
+TEST(Guccione, EnergyIsTheFormula) {
+  std::mt19937 generator(43);
+  const FibreAxes axes = random_axes(1);
+  const Mat3 R = axes.col(0).reshaped(3, 3);
+  for (int i = 0; i < 5; ++i) {
+    const Mat3 F = random_deformation(generator), C = R.transpose() * F.transpose() * F * R;
+    const auto energy = [](const Mat3& E) {
+      const double Q = 8 * E(0, 0) * E(0, 0) +
+                       2 * (E(1, 1) * E(1, 1) + E(2, 2) * E(2, 2) + E(1, 2) * E(1, 2) + E(2, 1) * E(2, 1)) +
+                       4 * (E(0, 1) * E(0, 1) + E(1, 0) * E(1, 0) + E(0, 2) * E(0, 2) + E(2, 0) * E(2, 0));
+      return 0.5 * 2 * (std::exp(Q) - 1);
+    };
+    const double full = energy(0.5 * (C - Mat3::Identity()));
+    const double isochoric = energy(0.5 * (std::pow(F.determinant(), -2.0 / 3) * C - Mat3::Identity()));
+    EXPECT_NEAR(respond(Guccione(kFull, axes), F).W, full, 1e-12 * (1 + full));
+    EXPECT_NEAR(respond(Guccione(kIsochoric, axes), F).W, isochoric, 1e-12 * (1 + isochoric));
+  }
+}
+
 // Isochoric stretch: both forms have the same energy, the isochoric one without mean stress.
 TEST(Guccione, FormsAgreeAtConstantVolume) {
   const Guccione full(kFull, identity_axes()), isochoric(kIsochoric, identity_axes());
@@ -195,6 +215,7 @@ TEST(ActiveStress, CrossFibreFractionOfOneIsAPressureLikeStress) {
   const std::vector<double> tension = {60};
   const Response r = respond(ActiveStress(random_axes(1), 1), Mat3::Identity(), 0, tension);
   EXPECT_LT((r.P - 60 * Mat3::Identity()).norm(), 1e-12);
+  EXPECT_NEAR(r.W, 0, 1e-12);
 }
 
 TEST(ActiveStress, MissingTensionAndImpossibleFractionAreErrors) {
