@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include <cardiac/report/axes.hpp>
@@ -13,7 +14,7 @@ namespace {
 
 constexpr DrawPoint kCentre{230, 262};
 constexpr double kRadius = 186;
-constexpr double kDegree = M_PI / 180;
+constexpr double kDegree = std::numbers::pi / 180;
 
 DrawPoint on_disc(double radius, double angle_deg) {
   return {kCentre.x + kRadius * radius * std::cos(angle_deg * kDegree),

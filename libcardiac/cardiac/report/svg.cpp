@@ -1,6 +1,7 @@
 #include <cardiac/report/svg.hpp>
 
 #include <cmath>
+#include <numbers>
 
 #include <cardiac/report/text.hpp>
 
@@ -67,8 +68,8 @@ void Svg::rect(DrawPoint corner, double width, double height, std::string_view s
 
 void Svg::text(DrawPoint at, std::string_view content, const TextStyle& style) {
   constexpr double kHalfCapital = 0.36;
-  const DrawPoint shift = {-std::sin(style.rotate_deg * M_PI / 180) * kHalfCapital * style.size,
-                           std::cos(style.rotate_deg * M_PI / 180) * kHalfCapital * style.size};
+  const DrawPoint shift = {-std::sin(style.rotate_deg * std::numbers::pi / 180) * kHalfCapital * style.size,
+                           std::cos(style.rotate_deg * std::numbers::pi / 180) * kHalfCapital * style.size};
   const DrawPoint p = {at.x + shift.x, at.y + shift.y};
   body_ += "<text" + attribute("x", p.x) + attribute("y", p.y) + attribute("font-size", style.size) +
            " text-anchor=\"" + std::string(anchor_name(style.anchor)) + "\" fill=\"" + style.colour + "\"";
