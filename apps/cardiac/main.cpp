@@ -4,6 +4,7 @@
 #include <polyaffine/core/error.hpp>
 
 #include "explain_command.hpp"
+#include "mesh_command.hpp"
 #include "run_command.hpp"
 #include "schema_command.hpp"
 
@@ -21,6 +22,7 @@ int run_program(int argc, char** argv) {
   app.set_version_flag("--version", "cardiac " CARDIAC_VERSION);
   app.require_subcommand(1);
   cardiac::app::add_run_command(app);
+  cardiac::app::add_mesh_command(app);
   cardiac::app::add_schema_command(app);
   cardiac::app::add_explain_command(app);
   try {
