@@ -4,6 +4,7 @@
 #include <polyaffine/core/error.hpp>
 
 #include "explain_command.hpp"
+#include "mesh_command.hpp"
 #include "report_command.hpp"
 #include "run_command.hpp"
 #include "schema_command.hpp"
@@ -23,6 +24,7 @@ int run_program(int argc, char** argv) {
   app.set_version_flag("--version", "cardiac " CARDIAC_VERSION);
   app.require_subcommand(1);
   cardiac::app::add_run_command(app);
+  cardiac::app::add_mesh_command(app);
   cardiac::app::add_strain_command(app);
   cardiac::app::add_report_command(app);
   cardiac::app::add_schema_command(app);

@@ -41,7 +41,7 @@ Vec3 mean_normal(const polyaffine::TetMesh& mesh, int label) {
 
 VentricularCoordinates::VentricularCoordinates(const polyaffine::TetMesh& mesh, const SurfaceLabels& labels,
                                                const AnatomyOptions& options)
-    : space_(std::make_shared<polyaffine::LagrangeBasis>(mesh, 2)) {
+    : space_(std::make_shared<polyaffine::LagrangeBasis>(mesh, 2, polyaffine::smooth_midpoints(mesh))) {
   require_label(mesh, labels.endo, "endo");
   require_label(mesh, labels.epi, "epi");
   require_label(mesh, labels.base, "base");
@@ -151,7 +151,10 @@ CoordinateSample VentricularCoordinates::sample(int tet, const Vec4& barycentric
 }
 
 Vec3 VentricularCoordinates::position(int tet, const Vec4& barycentric) const {
-  return space_->nodes()(Eigen::all, space_->elements().col(tet).head<4>()) * barycentric;
+  Vector N;
+  Eigen::MatrixX4d derivative;
+  space_->shape(barycentric, N, derivative);
+  return space_->nodes()(Eigen::all, space_->elements().col(tet)) * N;
 }
 
 double VentricularCoordinates::long_axis_height(const Vec3& X) const {

@@ -52,8 +52,10 @@ class VentricularCoordinates {
   const polyaffine::Vec3& axis() const { return axis_; }
   const polyaffine::Vec3& anterior() const { return anterior_; }  ///< unit, across the axis
   const polyaffine::Vec3& base_centre() const { return base_centre_; }
-  double cavity_length() const { return cavity_length_; }      ///< mm, apex of the cavity to the base
-  double arc_length() const { return arc_length_; }            ///< mm, along the wall, apex to base
+  double cavity_length() const { return cavity_length_; }  ///< mm, apex of the cavity to the base
+  double arc_length() const { return arc_length_; }        ///< mm, along the wall, apex to base
+  /// The curved quadratic elements of the wall on which the coordinates live.
+  const polyaffine::LagrangeBasis& space() const { return *space_; }
   const polyaffine::Vector& apicobasal() const { return u_; }  ///< at the vertices, then the edge midpoints
   const polyaffine::Vector& transmural() const { return t_; }
   /// Axes at the vertices, then the edge midpoints: nine numbers a column, [e_l e_c e_r].

@@ -42,7 +42,7 @@ TruncatedEllipsoid human_lv() {
   return {.endo_short_mm = 20, .endo_long_mm = 64, .epi_short_mm = 30, .epi_long_mm = 73, .base_z_mm = 17};
 }
 
-void check(const TruncatedEllipsoid& s) {
+void check_shape(const TruncatedEllipsoid& s) {
   const auto positive = [](const char* name, double value) {
     if (!(value > 0) || !std::isfinite(value))
       throw polyaffine::InputError(std::string(name) + ": found " + std::to_string(value) +
@@ -63,6 +63,10 @@ void check(const TruncatedEllipsoid& s) {
     throw polyaffine::InputError("base_z_mm: found " + std::to_string(s.base_z_mm) +
                                  " mm, expected a plane between −" + std::to_string(s.endo_long_mm) +
                                  " and " + std::to_string(s.endo_long_mm) + " mm (endo_long_mm)");
+}
+
+double default_mesh_size_mm(const TruncatedEllipsoid& s) {
+  return 0.52 * (s.epi_short_mm - s.endo_short_mm);
 }
 
 double wall_function(const TruncatedEllipsoid& s, const Vec3& x) {

@@ -32,7 +32,10 @@ TruncatedEllipsoid human_lv();
 
 /// Throws InputError when an axis is not positive and finite, the wall has no thickness, or the base plane
 /// does not cut both ellipsoids.
-void check(const TruncatedEllipsoid& shape);
+void check_shape(const TruncatedEllipsoid& shape);
+
+/// An edge length that leaves about two tets through the wall: 0.52 of its thickness at the equator, mm.
+double default_mesh_size_mm(const TruncatedEllipsoid& shape);
 
 /// Negative in the wall, zero on its surface, positive outside; in mm near the surface.
 double wall_function(const TruncatedEllipsoid& shape, const Vec3& x);

@@ -1,5 +1,6 @@
 #include "cardiac/anatomy/segment_frames.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 

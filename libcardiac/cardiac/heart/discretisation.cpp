@@ -35,7 +35,8 @@ polyaffine::SurfacePoints turned(polyaffine::SurfacePoints points) {
 }
 
 // One block a segment instead of one a face: few functions are seen by many faces.
-polyaffine::SurfacePoints by_segment(const polyaffine::SurfacePoints& points, const std::vector<int>& segment) {
+polyaffine::SurfacePoints by_segment(const polyaffine::SurfacePoints& points,
+                                     const std::vector<int>& segment) {
   std::vector<int> order(points.tet.size());
   for (std::size_t q = 0; q < order.size(); ++q) order[q] = static_cast<int>(q);
   std::stable_sort(order.begin(), order.end(),
@@ -48,7 +49,8 @@ polyaffine::SurfacePoints by_segment(const polyaffine::SurfacePoints& points, co
   out.X_eta = points.X_eta(Eigen::all, order);
   for (const int q : order) {
     const int t = points.tet[q];
-    if (out.starts.empty() || segment[t] != segment[out.tet.back()]) out.starts.push_back(static_cast<int>(out.tet.size()));
+    if (out.starts.empty() || segment[t] != segment[out.tet.back()])
+      out.starts.push_back(static_cast<int>(out.tet.size()));
     out.tet.push_back(t);
   }
   out.starts.push_back(static_cast<int>(out.tet.size()));
@@ -59,7 +61,8 @@ void add_surfaces(const Anatomy& anatomy, const Protocol& protocol, const Lagran
                   Discretisation& out) {
   const auto points = [&](int label) { return geometry.surface_points(anatomy.mesh, {label}, degree); };
   if (protocol.circulation || protocol.cavities) out.cavity_points = turned(points(anatomy.labels.endo));
-  if (protocol.boundary.epicardial_stiffness_kPa_per_mm > 0) out.epicardium_points = points(anatomy.labels.epi);
+  if (protocol.boundary.epicardial_stiffness_kPa_per_mm > 0)
+    out.epicardium_points = points(anatomy.labels.epi);
   if (protocol.boundary.base == protocol::Base::spring) out.base_points = points(anatomy.labels.base);
 }
 
@@ -94,7 +97,7 @@ Discretisation reduced_discretisation(const Anatomy& anatomy, const Protocol& pr
   out.num_unknowns = 3 * out.basis->num_functions();
   out.fixed.assign(out.num_unknowns, 0);
 
-  const LagrangeBasis geometry(anatomy.mesh, 1);
+  const LagrangeBasis& geometry = anatomy.coordinates->space();
   const polyaffine::WallPoints candidates = geometry.wall_points(kCandidateDegree);
   std::vector<int> cell;
   polyaffine::Points place(3, candidates.barycentric.cols());
@@ -117,7 +120,9 @@ Discretisation reduced_discretisation(const Anatomy& anatomy, const Protocol& pr
 Discretisation full_discretisation(const Anatomy& anatomy, const Protocol& protocol) {
   Discretisation out;
   const int order = protocol.reduction.element_order;
-  const auto basis = std::make_shared<LagrangeBasis>(anatomy.mesh, order);
+  const auto basis = std::make_shared<LagrangeBasis>(
+      anatomy.mesh, order,
+      order == 2 ? polyaffine::smooth_midpoints(anatomy.mesh) : polyaffine::EdgeMidpoints());
   out.basis = basis;
   out.points = basis->wall_points(order == 1 ? 1 : 3);
   out.sparse = true;
@@ -143,8 +148,7 @@ polyaffine::PressureSpace pressure_space(const Anatomy& anatomy, const Discretis
   const Space space = *protocol.reduction.pressure_space;
   if (space == Space::segment) {
     std::vector<int> region;
-    for (std::size_t q = 0; q < points.tet.size(); ++q)
-      region.push_back(anatomy.segment[points.tet[q]] - 1);
+    for (std::size_t q = 0; q < points.tet.size(); ++q) region.push_back(anatomy.segment[points.tet[q]] - 1);
     return polyaffine::region_pressure(table, region, kAhaSegments, kappa);
   }
   std::vector<Monomial> functions{{0, 0, 0}, {0, 0, 1}};

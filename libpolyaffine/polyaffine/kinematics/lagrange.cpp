@@ -21,7 +21,7 @@ int local_vertex(const TetMesh& mesh, int tet, int vertex) {
 
 }  // namespace
 
-LagrangeBasis::LagrangeBasis(const TetMesh& mesh, int order, const SurfaceProjector& project)
+LagrangeBasis::LagrangeBasis(const TetMesh& mesh, int order, const EdgeMidpoints& midpoints)
     : order_(order), nodes_(mesh.points()), elements_(mesh.tets()) {
   if (order != 1 && order != 2)
     throw InputError("element order: found " + std::to_string(order) + ", expected 1 or 2");
@@ -38,21 +38,27 @@ LagrangeBasis::LagrangeBasis(const TetMesh& mesh, int order, const SurfaceProjec
   nodes_.conservativeResize(Eigen::NoChange, mesh.num_points() + static_cast<Eigen::Index>(edges.size()));
   for (const auto& [ends, node] : edges)
     nodes_.col(node) = 0.5 * (mesh.points().col(ends.first) + mesh.points().col(ends.second));
-  if (!project) return;
+  for (const auto& [ends, point] : midpoints)
+    if (const auto edge = edges.find(ends); edge != edges.end()) nodes_.col(edge->second) = point;
 
-  for (Eigen::Index f = 0; f < mesh.boundary().cols(); ++f)
-    for (int k = 0; k < 3; ++k) {
-      const auto key = std::minmax(mesh.boundary()(k, f), mesh.boundary()((k + 1) % 3, f));
-      auto node = nodes_.col(edges.at(key));
-      node = project(node, mesh.boundary_labels()[f]);
+  // Straightening one element bends its neighbours back, so that a few passes may be needed.
+  for (bool changed = !midpoints.empty(); changed;) {
+    changed = false;
+    for (int t = 0; t < mesh.num_tets(); ++t) {
+      if (!turned_over(t)) continue;
+      changed = true;
+      for (int e = 0; e < 6; ++e)
+        nodes_.col(elements_(4 + e, t)) =
+            0.5 * (nodes_.col(elements_(kEdges[e][0], t)) + nodes_.col(elements_(kEdges[e][1], t)));
     }
-  const TetRule rule = tet_rule(4);
-  for (int t = 0; t < mesh.num_tets(); ++t)
-    for (Eigen::Index q = 0; q < rule.weights.size(); ++q)
-      if (jacobian(t, rule.barycentric.col(q)).determinant() <= 0)
-        throw InputError(
-            "quadratic mesh: tet " + std::to_string(t) +
-            " turns over when its edge is moved onto the curved surface; a finer mesh is needed there");
+  }
+}
+
+bool LagrangeBasis::turned_over(int tet) const {
+  static const TetRule rule = tet_rule(4);
+  for (Eigen::Index q = 0; q < rule.weights.size(); ++q)
+    if (jacobian(tet, rule.barycentric.col(q)).determinant() <= 0) return true;
+  return false;
 }
 
 void LagrangeBasis::shape(const Vec4& l, Vector& N, Eigen::MatrixX4d& derivative) const {

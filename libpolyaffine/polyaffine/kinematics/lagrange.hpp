@@ -1,22 +1,20 @@
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include <polyaffine/kinematics/basis.hpp>
+#include <polyaffine/mesh/curved_edges.hpp>
 #include <polyaffine/mesh/tet_mesh.hpp>
 
 namespace polyaffine {
-
-/// Moves a point of the boundary onto the true surface with that label; for curved quadratic elements.
-using SurfaceProjector = std::function<Vec3(const Vec3& point, int label)>;
 
 /// Linear (4-node) or quadratic (10-node) isoparametric tetrahedra. Quadratic nodes follow the vertices of
 /// the mesh: one at the middle of each edge, in an element in the order 01, 12, 02, 03, 13, 23 (that of VTK).
 class LagrangeBasis : public Basis {
  public:
-  /// Throws InputError when order is not 1 or 2, or a projected midpoint turns an element over.
-  LagrangeBasis(const TetMesh& mesh, int order, const SurfaceProjector& project = {});
+  /// Quadratic edges pass through the given midpoints (see smooth_midpoints); where that would turn an
+  /// element over its edges stay straight. Throws InputError when order is not 1 or 2.
+  LagrangeBasis(const TetMesh& mesh, int order, const EdgeMidpoints& midpoints = {});
 
   int order() const { return order_; }
   const Points& nodes() const { return nodes_; }                 ///< mm
@@ -40,6 +38,8 @@ class LagrangeBasis : public Basis {
   std::vector<int> surface_nodes(const TetMesh& mesh, const std::vector<int>& labels) const;
 
  private:
+  bool turned_over(int tet) const;
+
   int order_;
   Points nodes_;
   Eigen::MatrixXi elements_;

@@ -94,11 +94,10 @@ Complex build_with_fallback(const ImplicitDomain& domain, const MeshSizes& sizes
     try {
       return build(domain, sizes, smoothing_steps);
     } catch (const CGAL::Failure_exception&) {
-      if (smoothing_steps == 0)
-        throw ComputationError("meshing failed inside CGAL; try a slightly different size");
+      continue;
     }
   }
-  throw ComputationError("meshing failed");
+  throw ComputationError("meshing: CGAL could not improve the mesh; try a slightly different size");
 }
 
 }  // namespace
