@@ -83,9 +83,8 @@ TEST(KeyTable, EachKeyFillsItsOwnMember) {
       }
       const auto changed = values(protocol);
       for (std::size_t i = 0; i < changed.size(); ++i) {
-        if (i != row) EXPECT_EQ(changed[i], standard[i]) << "changed by " << key.name;
+        EXPECT_EQ(changed[i], i == row ? value : standard[i]) << "changed by " << key.name;
       }
-      EXPECT_EQ(changed[row], value) << key.name;
       ++row;
     }
   }
