@@ -32,6 +32,8 @@ std::string found_text(const toml::node& node) {
     text << (flag->get() ? "true" : "false");
   } else if (const auto* word = node.as_string()) {
     text << "the text \"" << word->get() << '"';
+  } else if (node.is_array_of_tables()) {
+    text << "a list of tables";
   } else if (const auto* array = node.as_array()) {
     text << "the list " << *array;
   } else if (node.is_table()) {
@@ -51,7 +53,9 @@ class Flattening {
     for (const auto& [name, node] : root) {
       const std::string table(name.str());
       const Table* known = find_table(table);
-      if (node.is_array_of_tables()) {
+      if (known != nullptr && known->list && node.is_array() && node.as_array()->empty()) {
+        add({table, 0, "", Json::array(), "an empty list", where(node)});
+      } else if (node.is_array_of_tables() && (known == nullptr || known->list)) {
         std::size_t index = 0;
         for (const auto& element : *node.as_array()) add_table(table, index++, *element.as_table(), element);
       } else if (known != nullptr && known->list && !is_file_ && node.is_table()) {

@@ -8,7 +8,8 @@
 /// The text of a protocol, flattened: the only place that knows TOML. For the sources of this folder only.
 namespace cardiac::protocol {
 
-/// One value, or the bare presence of a table (key empty).
+/// One value, or the bare presence of a table (key empty; with an empty array as value: a list without
+/// tables).
 struct Entry {
   std::string table;      ///< empty: a value outside any table
   std::size_t index = 0;  ///< entry of a list of tables, from 0

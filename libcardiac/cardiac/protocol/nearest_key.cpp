@@ -15,7 +15,7 @@ char lower(char letter) {
 /// Distance of two key names; a missing or different unit counts little.
 double name_distance(const std::string& given, const std::string& known) {
   const double distance = edit_distance(given, known);
-  return given.size() >= 3 && known.starts_with(given + '_') ? std::min(distance, 1.0) : distance;
+  return known.starts_with(given + '_') ? std::min(distance, 0.5) : distance;
 }
 
 }  // namespace
@@ -52,6 +52,11 @@ std::string nearest_key(const std::string& table, const std::string& key) {
     }
   }
   return nearest;
+}
+
+std::string nearest_table(const std::string& name) {
+  return std::ranges::min(tables(), {}, [&](const Table& table) { return edit_distance(name, table.name); })
+      .name;
 }
 
 std::string key_path(const std::string& table, std::size_t index, const std::string& key) {

@@ -14,6 +14,8 @@ int edit_distance(const std::string& one, const std::string& other);
 /// is near.
 std::string nearest_key(const std::string& table, const std::string& key);
 
+std::string nearest_table(const std::string& name);
+
 /// Path of a key in messages: table.key, or table.3.key for the third entry of a list of tables.
 std::string key_path(const std::string& table, std::size_t index, const std::string& key);
 

@@ -52,10 +52,10 @@ void assign(Protocol& protocol, const Entry& entry) {
   }
   if (table == nullptr) {
     if (entry.table.empty() || !entry.key.empty()) fail_unknown(entry);
-    throw InputError(entry.where + ": " + entry.table + ": unknown table; the nearest known key is " +
-                     nearest_key("", entry.table));
+    throw InputError(entry.where + ": " + entry.table + ": unknown table; the nearest known table is " +
+                     nearest_table(entry.table));
   }
-  if (entry.key.empty()) return table->open(protocol, entry.index);
+  if (entry.key.empty()) return entry.value.is_array() ? void() : table->open(protocol, entry.index);
   const Key* key = find_key(*table, entry.key);
   if (key == nullptr) fail_unknown(entry);
   if (!acceptable(*key, entry.value)) {

@@ -18,7 +18,7 @@ struct Mesh {
   std::optional<Shape> shape;
   std::optional<double> size_mm;  ///< edge length of a generated mesh; absent: the shape's own
   std::optional<LengthUnit> length_unit;
-  std::string label_array = "surface_label";
+  std::string label_array = "surface";
   int endo_label = 1, epi_label = 2, base_label = 3;
 };
 

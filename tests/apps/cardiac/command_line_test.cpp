@@ -107,7 +107,7 @@ TEST(CommandLine, WrongInputIsStatusTwoAndDamagesNothing) {
   std::ofstream(kept / "summary.json") << "{}";
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"nowhere.toml", "no such file"},
-      {file + " --set tissue.mu_kPa=-1", "above 0 kPa"},
+      {file + " --set tissue.mu_kPa=-1", "above 0, at most"},
       {file + " --set tissue.mu=1", "tissue.mu_kPa"},
       {file + " --set time.max_beats=many", "a whole number"},
       {file + " --set tissue", "expected key.path=value"},

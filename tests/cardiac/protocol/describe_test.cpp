@@ -83,9 +83,8 @@ TEST(KeyTable, EachKeyFillsItsOwnMember) {
       }
       const auto changed = values(protocol);
       for (std::size_t i = 0; i < changed.size(); ++i) {
-        if (i != row) EXPECT_EQ(changed[i], standard[i]) << "changed by " << key.name;
+        EXPECT_EQ(changed[i], i == row ? value : standard[i]) << "changed by " << key.name;
       }
-      EXPECT_EQ(changed[row], value) << key.name;
       ++row;
     }
   }
@@ -97,14 +96,13 @@ TEST(KeyTable, DefaultsAreAcceptable) {
   for (const Table& table : tables()) {
     for (const Key& key : table.keys) {
       const json value = key.get(default_protocol(), 0);
-      if (!value.is_null())
-        EXPECT_TRUE(acceptable(key, value)) << table.name << '.' << key.name << ' ' << value;
+      EXPECT_TRUE(value.is_null() || acceptable(key, value)) << table.name << '.' << key.name << ' ' << value;
     }
   }
 }
 
 TEST(KeyTable, UnitsInNamesAreStated) {
-  const std::regex unit("_(mm|ms|kPa|mmHg|mL|deg|percent|bpm|s)$");
+  const std::regex unit("(_(mm|ms|kPa|mmHg|deg|percent|bpm)|_per_(mm|ms|s|mL|mmHg))$");
   for (const auto& path : cardiac::key_paths()) {
     const auto text = cardiac::explain(path);
     EXPECT_EQ(std::regex_search(path, unit), text.find("\n  unit      ") != std::string::npos &&
@@ -165,10 +163,10 @@ TEST(Explain, TellsEveryKey) {
     EXPECT_THAT(cardiac::explain(path), AllOf(testing::StartsWith(path + '\n'), HasSubstr("  meaning   "),
                                               HasSubstr("  expected  "), HasSubstr("  default   ")));
   }
-  EXPECT_THAT(cardiac::explain("tissue.C_kPa"),
-              AllOf(HasSubstr("unit      kPa"), HasSubstr("default   2 kPa"),
-                    HasSubstr("above 0 kPa, at most 1000 kPa"), HasSubstr("tissue.law = guccione"),
-                    HasSubstr("Guccione 1991")));
+  EXPECT_THAT(
+      cardiac::explain("tissue.C_kPa"),
+      AllOf(HasSubstr("unit      kPa"), HasSubstr("default   2 kPa"), HasSubstr("above 0, at most 1000 kPa"),
+            HasSubstr("tissue.law = guccione"), HasSubstr("Guccione 1991")));
   EXPECT_EQ(cardiac::explain("heart_rate_bpm"), cardiac::explain("time.heart_rate_bpm"));
   EXPECT_THAT(cardiac::explain("circulation"),
               AllOf(HasSubstr("compliance_mL_per_mmHg"), HasSubstr("not built")));
