@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # Functions of apps/demo.sh and tests/run.sh; to be sourced from the project's root.
 
 # install_packages [PURPOSE...]: installs what apps/packages.txt lists and is missing, with apt; quiet when

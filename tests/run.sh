@@ -4,7 +4,7 @@
 #   --sanitize  also build and run the tests with address and undefined-behaviour sanitizers
 #   --tidy      also run clang-tidy over all sources
 set -uo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
+cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 source apps/setup.sh
 
 sanitize=no tidy=no

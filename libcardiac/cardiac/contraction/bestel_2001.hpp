@@ -53,7 +53,7 @@ class TensionCurve {
                 Eigen::Ref<Vector> rate_kPa_per_ms) const;
 
   double period_ms() const { return period_ms_; }
-  double peak_tension_kPa() const { return peak_tension_kPa_; }
+  double peak_tension() const { return peak_tension_kPa_; }  ///< kPa
   /// Begin and end of contraction (a > 0) within a period; τ rises from the first and is largest at the
   /// second.
   double contraction_begin_ms() const { return begin_ms_; }
