@@ -8,6 +8,7 @@
 #include <string>
 
 #include <polyaffine/core/error.hpp>
+#include <polyaffine/geometry/straight_path.hpp>
 
 namespace polyaffine {
 namespace {
@@ -110,6 +111,27 @@ Eigen::Matrix<double, 3, 4> EikonalSolver::metric_corners(int t) const {
   return corners;
 }
 
+// Spreads from the source's tet over the vertices that it sees and reaches before the sources so far.
+void EikonalSolver::start_straight(const MeshPoint& from, double time, int label,
+                                   const std::vector<char>& allowed, Arrival& initial) const {
+  const Vec3 x = position(mesh_, from.tet, from.barycentric);
+  std::vector<char> seen(mesh_.num_points(), 0);
+  std::vector<int> spreading;
+  const auto offer = [&](int v, double arrival) {
+    seen[v] = 1;
+    if (!(arrival < initial.time[v])) return;
+    initial.time[v] = arrival;
+    initial.label[v] = label;
+    spreading.push_back(v);
+  };
+  for (const int v : mesh_.tets().col(from.tet))
+    offer(v, time + travel_time(from.tet, mesh_.points().col(v) - x));
+  for (size_t next = 0; next < spreading.size(); ++next)
+    for (const int t : around_[spreading[next]])
+      for (const int v : mesh_.tets().col(t))
+        if (!seen[v]) offer(v, time + straight_time(*this, from, v, allowed));
+}
+
 Arrival EikonalSolver::march(const std::vector<EikonalSource>& sources,
                              const std::vector<char>& allowed) const {
   Arrival initial{Vector::Constant(mesh_.num_points(), kInfinity), std::vector<int>(mesh_.num_points(), -1)};
@@ -118,14 +140,7 @@ Arrival EikonalSolver::march(const std::vector<EikonalSource>& sources,
     if (at.tet < 0 || at.tet >= mesh_.num_tets())
       throw InputError("eikonal source " + std::to_string(s) + ": found tet " + std::to_string(at.tet) +
                        ", expected 0 to " + std::to_string(mesh_.num_tets() - 1));
-    const Vec3 x = position(mesh_, at.tet, at.barycentric);
-    for (int k = 0; k < 4; ++k) {
-      const int v = mesh_.tets()(k, at.tet);
-      const double time = sources[s].time + travel_time(at.tet, mesh_.points().col(v) - x);
-      if (time >= initial.time[v]) continue;
-      initial.time[v] = time;
-      initial.label[v] = static_cast<int>(s);
-    }
+    start_straight(at, sources[s].time, static_cast<int>(s), allowed, initial);
   }
   return march_from(std::move(initial), allowed);
 }

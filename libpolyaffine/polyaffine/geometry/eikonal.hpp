@@ -38,8 +38,9 @@ class EikonalSolver {
 
   const TetMesh& mesh() const { return mesh_; }
 
-  /// Times for fronts from sources; label = index of the source. The vertices of a source's tet start with
-  /// their exact times. A vertex can be first reached only through tets with allowed[t] (all when empty).
+  /// Times for fronts from sources; label = index of the source. Vertices that a source sees in a straight
+  /// line start with the time on that line, which is exact for constant D and removes the error that a linear
+  /// update makes next to a point. Only tets with allowed[t] (all when empty) are crossed.
   Arrival march(const std::vector<EikonalSource>& sources, const std::vector<char>& allowed = {}) const;
 
   /// Times when the vertices start with the given values (one each, +∞ where free) and labels (−1 where
@@ -53,6 +54,9 @@ class EikonalSolver {
 
  private:
   Eigen::Matrix<double, 3, 4> metric_corners(int t) const;
+
+  void start_straight(const MeshPoint& from, double time, int label, const std::vector<char>& allowed,
+                      Arrival& initial) const;
 
   const TetMesh& mesh_;
   std::vector<Mat3> metric_root_;  // U with D⁻¹ = UᵀU, empty for D = I
