@@ -20,6 +20,9 @@ using polyaffine::Vector;
 
 namespace {
 
+// Share of the wall thickness over which the radial direction is smoothed.
+constexpr double kSmoothing = 0.3;
+
 void require_label(const polyaffine::TetMesh& mesh, int label, const char* name) {
   const auto& labels = mesh.boundary_labels();
   if (std::find(labels.begin(), labels.end(), label) == labels.end())
@@ -119,10 +122,21 @@ void VentricularCoordinates::solve_apicobasal(const polyaffine::TetMesh& mesh, c
 }
 
 void VentricularCoordinates::build_axes() {
-  const Points radial = polyaffine::recovered_gradient(*space_, t_);
-  axes_.resize(9, radial.cols());
-  for (Eigen::Index n = 0; n < radial.cols(); ++n) {
-    const Vec3 e_r = radial.col(n).normalized();
+  // ∂Q multiplies the displacement itself, so the noise of ∇t must go: smoothed over a share of the wall.
+  const polyaffine::WallPoints points = space_->wall_points(4);
+  Points radial(3, points.barycentric.cols());
+  double thickness = 0;
+  for (Eigen::Index q = 0; q < radial.cols(); ++q) {
+    const auto s = space_->sample(points.tet[q], points.barycentric.col(q));
+    const Vec3 gradient = s.gradient * t_(s.functions);
+    radial.col(q) = gradient.normalized();
+    thickness += points.weights[q] / gradient.norm();
+  }
+  thickness /= points.weights.sum();
+  const Matrix smooth = polyaffine::smooth_projection(*space_, points, radial, kSmoothing * thickness);
+  axes_.resize(9, smooth.cols());
+  for (Eigen::Index n = 0; n < smooth.cols(); ++n) {
+    const Vec3 e_r = smooth.col(n).normalized();
     Vec3 e_c = axis_.cross(e_r);
     if (e_c.norm() < 1e-6) e_c = septal_;  // on the axis itself no direction is distinguished
     e_c.normalize();

@@ -17,7 +17,7 @@ namespace {
 // Degree of the Gauss points of the mesh from which the points of a reduced model are chosen.
 constexpr int kCandidateDegree = 4;
 // Polynomials kept exact in a cell, along u, ψ and the depth: fibres turn by 120° through the wall.
-static polyaffine::CellDegree kCellDegree{getenv("CU")?atoi(getenv("CU")):3, getenv("CU")?atoi(getenv("CU")):3, getenv("CT")?atoi(getenv("CT")):6};
+constexpr polyaffine::CellDegree kCellDegree{4, 4, 8};
 
 std::vector<Monomial> monomials(const Protocol& protocol) {
   auto out = polyaffine::affine_monomials();
@@ -73,7 +73,6 @@ void add_surfaces(const Anatomy& anatomy, const Protocol& protocol, const Lagran
   if (protocol.circulation || protocol.cavities) out.cavity_points = turned(points(anatomy.labels.endo));
   if (protocol.boundary.epicardial_stiffness_kPa_per_mm > 0)
     out.epicardium_points = points(anatomy.labels.epi);
-  if (protocol.boundary.base == protocol::Base::spring) out.base_points = points(anatomy.labels.base);
 }
 
 }  // namespace
@@ -92,10 +91,9 @@ Anatomy build_anatomy(polyaffine::TetMesh mesh, const Protocol& protocol) {
 
 Discretisation reduced_discretisation(const Anatomy& anatomy, const Protocol& protocol) {
   Discretisation out;
-  const bool clamped = protocol.boundary.base == protocol::Base::clamped;
   const auto layout = frame_layout(anatomy.mesh, *anatomy.coordinates,
                                    protocol.reduction.ring_positions.value_or(std::vector<double>{}));
-  out.frames = std::make_shared<SegmentFrames>(anatomy.coordinates, layout, clamped);
+  out.frames = std::make_shared<SegmentFrames>(anatomy.coordinates, layout, true);
   std::vector<FrameFunctions> functions;
   const auto own = independent(out.frames->num_frames(), monomials(protocol));
   for (int i = 0; i < out.frames->num_frames(); ++i) {
@@ -122,7 +120,7 @@ Discretisation reduced_discretisation(const Anatomy& anatomy, const Protocol& pr
                    ? polyaffine::group_cells(candidates, cell)
                    : polyaffine::compress_cells(candidates, cell, place, kCellDegree);
   add_surfaces(anatomy, protocol, geometry, 1, out);
-  for (auto* points : {&out.cavity_points, &out.epicardium_points, &out.base_points})
+  for (auto* points : {&out.cavity_points, &out.epicardium_points})
     if (!points->tet.empty()) *points = by_segment(*points, anatomy.segment);
   return out;
 }
@@ -138,12 +136,11 @@ Discretisation full_discretisation(const Anatomy& anatomy, const Protocol& proto
   out.sparse = true;
   out.num_unknowns = 3 * basis->num_functions();
   out.fixed.assign(out.num_unknowns, 0);
-  if (protocol.boundary.base == protocol::Base::clamped)
-    for (const int node : basis->surface_nodes(anatomy.mesh, {anatomy.labels.base}))
-      for (int k = 0; k < 3; ++k) {
-        out.fixed[3 * node + k] = 1;
-        --out.num_unknowns;
-      }
+  for (const int node : basis->surface_nodes(anatomy.mesh, {anatomy.labels.base}))
+    for (int k = 0; k < 3; ++k) {
+      out.fixed[3 * node + k] = 1;
+      --out.num_unknowns;
+    }
   add_surfaces(anatomy, protocol, *basis, order == 1 ? 1 : 4, out);
   return out;
 }

@@ -27,9 +27,9 @@ struct Discretisation {
   std::shared_ptr<const polyaffine::Basis> basis;
   std::shared_ptr<const SegmentFrames> frames;  ///< null for full order
   polyaffine::WallPoints points;
-  polyaffine::SurfacePoints cavity_points;      ///< endocardium, tangents turned so that X_ξ × X_η leaves the cavity
+  polyaffine::SurfacePoints
+      cavity_points;  ///< endocardium, tangents turned so that X_ξ × X_η leaves the cavity
   polyaffine::SurfacePoints epicardium_points;  ///< empty unless a spring acts there
-  polyaffine::SurfacePoints base_points;        ///< empty unless a spring acts there
   std::vector<char> fixed;                      ///< unknowns held at zero
   int num_unknowns = 0;                         ///< that are not fixed
   bool sparse = false;

@@ -87,7 +87,13 @@ std::shared_ptr<const polyaffine::FieldEnergy> build_wall(const Anatomy& anatomy
       laws.push_back(std::make_shared<polyaffine::QuadraticVolumetric>(tissue.bulk_modulus_kPa));
     else
       pressure = pressure_space(anatomy, discretisation, table, protocol);
-    if (discretisation.frames && getenv("KLOC")) { double k=atof(getenv("KLOC")); laws.push_back(std::make_shared<polyaffine::QuadraticVolumetric>(k)); pressure->bulk_modulus-=k; }
+    // What few pressures do not see, local changes of volume, a small part of the bulk modulus keeps in
+    // check.
+    if (const double local = protocol.reduction.local_bulk_modulus_kPa;
+        pressure && discretisation.frames && local > 0) {
+      laws.push_back(std::make_shared<polyaffine::QuadraticVolumetric>(local));
+      pressure->bulk_modulus -= local;
+    }
   }
   std::optional<polyaffine::KelvinVoigt> viscosity;
   if (tissue.viscosity_kPa_ms > 0 && protocol.contraction) viscosity.emplace(tissue.viscosity_kPa_ms);

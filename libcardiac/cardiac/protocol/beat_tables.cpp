@@ -128,20 +128,7 @@ Table circulation_table() {
 
 Table boundary_table() {
   TableBuilder table("boundary", "How the ventricle is held.", &Protocol::boundary);
-  table
-      .key("base", &Boundary::base,
-           {.meaning = "clamped: the base does not move; spring: springs in all directions"})
-      .key("clamp", &Boundary::clamp,
-           {.meaning = "how the clamped base is held: projection (exactly) or stiff_springs (for comparison)",
-            .used_with = "base",
-            .used_values = {"clamped"}})
-      .key("base_stiffness_kPa_per_mm", &Boundary::base_stiffness_kPa_per_mm,
-           {.unit = "kPa/mm",
-            .range = above_zero(1e6),
-            .meaning = "spring of the base per reference area, all directions",
-            .source = "Aróstica 2025: 1e5 Pa/m",
-            .used_with = "base",
-            .used_values = {"spring"}})
+  table.key("base", &Boundary::base, {.meaning = "clamped: the base does not move, its slope is free"})
       .key("epicardial_stiffness_kPa_per_mm", &Boundary::epicardial_stiffness_kPa_per_mm,
            {.unit = "kPa/mm",
             .range = {0, 1e6},

@@ -89,6 +89,11 @@ Table reduction_table() {
                 "its own), segment {1}, segment_depth {1, t}, segment_linear {1, l, c, t}, "
                 "segment_bilinear {1, l, c, t, lt, ct}",
             .absent = "from preset"})
+      .key("local_bulk_modulus_kPa", &Reduction::local_bulk_modulus_kPa,
+           {.unit = "kPa",
+            .range = {0, 1e6},
+            .meaning = "part of the bulk modulus that acts at every integration point beside the pressure "
+                       "space; one to two shear moduli keep local volumes in check"})
       .key("axes", &Reduction::axes,
            {.meaning = "components of the unknowns along heart axes (longitudinal, "
                        "circumferential, radial) or Cartesian axes"})
@@ -97,13 +102,8 @@ Table reduction_table() {
             .meaning = "apicobasal coordinate of each ring of control nodes, 0 apex to 1 base, rising",
             .absent = "from the centres of the segments"})
       .key("integration", &Reduction::integration,
-           {.meaning =
-                "integration points: cells (product rules between the kinks of the weights) or gauss (in "
-                "every tetrahedron)"})
-      .key("points_per_segment", &Reduction::points_per_segment,
-           {.range = {1, 100000},
-            .meaning = "integration points in a segment, about",
-            .absent = "what the functions need"})
+           {.meaning = "integration points: cells (few points that keep polynomials between the kinks of the "
+                       "weights exact) or gauss (in every tetrahedron)"})
       .key(
           "element_order", &Reduction::element_order,
           {.range = {1, 2},

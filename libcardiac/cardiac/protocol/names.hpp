@@ -51,11 +51,8 @@ constexpr Names<2> names_of(ActivationMode) {
 constexpr Names<1> names_of(ContractionModel) {
   return {"bestel_clement_sorine_simplified"};
 }
-constexpr Names<2> names_of(Base) {
-  return {"clamped", "spring"};
-}
-constexpr Names<2> names_of(Clamp) {
-  return {"projection", "stiff_springs"};
+constexpr Names<1> names_of(Base) {
+  return {"clamped"};
 }
 
 /// The word of one value, for instance "polyaffine" for Method::polyaffine.

@@ -42,10 +42,10 @@ struct Reduction {
   double sigmoid_slope = 2.25;
   std::optional<std::vector<std::string>> enrichment;  ///< set by the preset when the file does not name it
   std::optional<PressureSpace> pressure_space;         ///< set by the preset when the file does not name it
+  double local_bulk_modulus_kPa = 6;  ///< part of the bulk modulus that acts at every integration point
   Axes axes = Axes::heart;
   std::optional<std::vector<double>> ring_positions;  ///< apicobasal, 0 apex to 1 base; absent: by segment
   Integration integration = Integration::cells;
-  std::optional<int> points_per_segment;
   int element_order = 2;  ///< of the full-order model
 };
 
@@ -107,12 +107,9 @@ struct Circulation {
   double initial_aortic_pressure_mmHg = 80;
 };
 
-enum class Base { clamped, spring };
-enum class Clamp { projection, stiff_springs };
+enum class Base { clamped };
 struct Boundary {
   Base base = Base::clamped;
-  Clamp clamp = Clamp::projection;
-  double base_stiffness_kPa_per_mm = 0.1;      ///< base = spring, all directions
   double epicardial_stiffness_kPa_per_mm = 0;  ///< along the reference normal; 0: none
 };
 

@@ -1,7 +1,6 @@
 #include "polyaffine/geometry/laplace.hpp"
 
 #include <Eigen/CholmodSupport>
-#include <Eigen/LU>
 #include <Eigen/SparseCore>
 
 #include <polyaffine/core/error.hpp>
@@ -56,26 +55,35 @@ Vector solve_laplace(const LagrangeBasis& basis, const std::vector<NodeValue>& d
   return solution;
 }
 
-Points recovered_gradient(const LagrangeBasis& basis, const Vector& nodal) {
-  Points sum = Points::Zero(3, basis.num_functions());
-  Vector weight = Vector::Zero(basis.num_functions());
-  Eigen::Matrix4Xd corners(4, basis.order() == 1 ? 4 : 10);
-  corners.leftCols<4>().setIdentity();
-  if (basis.order() == 2) {
-    const int edges[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
-    for (int e = 0; e < 6; ++e)
-      corners.col(4 + e) = 0.5 * (corners.col(edges[e][0]) + corners.col(edges[e][1]));
-  }
-  for (int t = 0; t < static_cast<int>(basis.elements().cols()); ++t) {
-    const double volume = basis.jacobian(t, Vec4::Constant(0.25)).determinant() / 6;
-    const Vector values = nodal(basis.elements().col(t));
-    for (Eigen::Index k = 0; k < corners.cols(); ++k) {
-      const int node = basis.elements()(k, t);
-      sum.col(node) += volume * (basis.sample(t, corners.col(k)).gradient * values);
-      weight[node] += volume;
+Matrix smooth_projection(const LagrangeBasis& basis, const WallPoints& points, const Matrix& values,
+                         double length) {
+  const int n = basis.num_functions();
+  std::vector<Eigen::Triplet<double>> entries;
+  Matrix rhs = Matrix::Zero(n, values.rows());
+  for (std::size_t t = 0; t + 1 < points.starts.size(); ++t) {
+    std::vector<int> nodes;
+    Matrix A;
+    for (int q = points.starts[t]; q < points.starts[t + 1]; ++q) {
+      const BasisSample s = basis.sample(static_cast<int>(t), points.barycentric.col(q));
+      if (nodes.empty()) {
+        nodes = s.functions;
+        A.setZero(s.N.size(), s.N.size());
+      }
+      A +=
+          points.weights[q] * (s.N * s.N.transpose() + length * length * s.gradient.transpose() * s.gradient);
+      rhs(nodes, Eigen::all) += points.weights[q] * s.N * values.col(q).transpose();
     }
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+      for (std::size_t b = 0; b < nodes.size(); ++b)
+        if (nodes[b] <= nodes[a])
+          entries.emplace_back(nodes[a], nodes[b],
+                               A(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)));
   }
-  return sum.array().rowwise() / weight.transpose().array();
+  Eigen::SparseMatrix<double> A(n, n);
+  A.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Lower> solver(A);
+  if (solver.info() != Eigen::Success) throw ComputationError("smoothing: the system is singular");
+  return solver.solve(rhs).transpose();
 }
 
 }  // namespace polyaffine

@@ -18,8 +18,10 @@ struct NodeValue {
 /// is given or the system is singular.
 Vector solve_laplace(const LagrangeBasis& basis, const std::vector<NodeValue>& dirichlet);
 
-/// Gradient of a nodal field at the nodes, the volume-weighted mean over the elements that meet there; 3 ×
-/// nodes.
-Points recovered_gradient(const LagrangeBasis& basis, const Vector& nodal);
+/// Smooth nodal field f (components × nodes) from values g at points of the wall (components × points), the
+/// minimiser of ∫ |f − g|² + length² |∇f|²: an L2 projection with a Helmholtz filter that removes what varies
+/// over less than about `length` (mm). The points are those of basis.wall_points(degree ≥ 4).
+Matrix smooth_projection(const LagrangeBasis& basis, const WallPoints& points, const Matrix& values,
+                         double length);
 
 }  // namespace polyaffine
