@@ -139,6 +139,7 @@ LoadReport load_stepping(const EquilibriumProblem& problem, LinearSystem& system
     previous = c;
     c = trial;
     report.reached = load;
+    if (options.on_step) options.on_step(load, c);
     if (attempt.iterations <= kQuick) step = std::min(options.largest_step, 2 * last_step);
   }
   return report;

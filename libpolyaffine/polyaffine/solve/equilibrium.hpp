@@ -48,6 +48,7 @@ struct LoadOptions {
   double smallest_step = 1e-4;
   double largest_step = 1.0;
   NewtonOptions newton;
+  std::function<void(double load, const Vector& c)> on_step{};  ///< called at every equilibrium of the path
 };
 
 struct LoadReport {

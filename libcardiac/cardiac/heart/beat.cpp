@@ -1,0 +1,177 @@
+#include "cardiac/heart/beat.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cardiac/heart/beat_system.hpp"
+
+#include <cardiac/core/units.hpp>
+
+namespace cardiac {
+
+using polyaffine::Vector;
+
+LeftHeartLoop left_heart_loop(const protocol::Circulation& c) {
+  LeftHeartLoop loop;
+  loop.filling_pressure_kPa = c.filling_pressure_mmHg * kPa_per_mmHg;
+  loop.mitral.resistance_kPa_ms_per_mm3 = c.mitral_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL;
+  loop.aortic.resistance_kPa_ms_per_mm3 =
+      (c.aortic_valve_resistance_mmHg_s_per_mL + c.characteristic_resistance_mmHg_s_per_mL) *
+      resistance_per_mmHg_s_per_mL;
+  loop.arteries = {c.characteristic_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL,
+                   c.peripheral_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL,
+                   c.compliance_mL_per_mmHg * compliance_per_mL_per_mmHg,
+                   c.venous_pressure_mmHg * kPa_per_mmHg};
+  return loop;
+}
+
+namespace {
+
+// The wall in equilibrium at the filling pressure. On failure the path says so.
+bool fill(const Ventricle& ventricle, const LeftHeartLoop& loop, const Vector& tension, HeartPath& path,
+          Vector& c) {
+  const auto problem = loaded_ventricle(ventricle, loop.filling_pressure_kPa, tension);
+  const auto system = ventricle.make_system();
+  const auto report = polyaffine::load_stepping(problem, *system, c);
+  path.newton_iterations += report.iterations;
+  if (report.converged()) return true;
+  path.stop_reason = "filling stopped at " +
+                     std::to_string(report.reached * loop.filling_pressure_kPa / kPa_per_mmHg) + " of " +
+                     std::to_string(loop.filling_pressure_kPa / kPa_per_mmHg) +
+                     " mmHg: " + polyaffine::to_string(report.last.reason);
+  return false;
+}
+
+double stroke_volume(const std::vector<HeartState>& steps) {
+  const auto by_volume = [](const HeartState& a, const HeartState& b) { return a.volume_mm3 < b.volume_mm3; };
+  const auto [low, high] = std::minmax_element(steps.begin(), steps.end(), by_volume);
+  return high->volume_mm3 - low->volume_mm3;
+}
+
+// The limit cycle is reached when the stroke volume and the volume at the begin of the beat come back.
+bool closed(const HeartPath& path, double tolerance_percent) {
+  const auto& sv = path.stroke_volumes_mm3;
+  if (sv.size() < 2) return false;
+  const double allowed = tolerance_percent / 100 * std::abs(sv.back());
+  return std::abs(sv.back() - sv[sv.size() - 2]) <= allowed &&
+         std::abs(path.steps.back().volume_mm3 - path.steps.front().volume_mm3) <= allowed;
+}
+
+}  // namespace
+
+HeartPath run_beats(const Ventricle& ventricle, const Protocol& protocol, const Progress& progress) {
+  const LeftHeartLoop loop = left_heart_loop(*protocol.circulation);
+  const double period = ventricle.contraction->curve.period_ms();
+  HeartPath path;
+  Vector c = Vector::Zero(ventricle.num_coefficients());
+  const Vector rest = ventricle.contraction->tension(0);
+  if (!fill(ventricle, loop, rest, path, c)) return path;
+
+  BeatSystem system(ventricle, loop);
+  HeartState start{0, c, ventricle.cavity_volume(c), loop.filling_pressure_kPa,
+                   protocol.circulation->initial_aortic_pressure_mmHg * kPa_per_mmHg};
+  const auto options = system.options(protocol.time);
+  polyaffine::DaeIntegrator ida(system, options, 0, system.pack(start), system.initial_rate(start));
+  const auto finish = [&] {
+    const auto counters = ida.counters();
+    path.time_steps = static_cast<int>(counters.steps);
+    path.newton_iterations += static_cast<int>(counters.newton_iterations);
+    path.factorisations = static_cast<int>(counters.factorisations);
+    path.simulated_ms = ida.time();
+    return path;
+  };
+
+  for (int beat = 0; beat < protocol.time.max_beats; ++beat) {
+    path.beat_start_ms = beat * period;
+    const double end = (beat + 1) * period;
+    const double interval = protocol.output.interval_ms;
+    path.steps = {system.unpack(path.beat_start_ms, path.beat_start_ms, ida.y())};
+    path.outputs = path.steps;
+    while (ida.time() < end - 1e-9 * period) {
+      if (ida.step(end) == polyaffine::DaeStatus::failed) {
+        path.stop_reason = "stopped at " + std::to_string(ida.time()) + " ms (beat " +
+                           std::to_string(beat + 1) + "): " + ida.failure();
+        return finish();
+      }
+      path.steps.push_back(system.unpack(ida.time(), path.beat_start_ms, ida.y()));
+      for (double t = path.beat_start_ms + interval * static_cast<double>(path.outputs.size());
+           t <= ida.time() + 1e-9 && t <= end + 1e-9;
+           t = path.beat_start_ms + interval * static_cast<double>(path.outputs.size())) {
+        Vector y;
+        ida.interpolate(std::min(t, ida.time()), y);
+        path.outputs.push_back(system.unpack(t, path.beat_start_ms, y));
+      }
+      path.min_det_F = system.min_det();
+      path.max_det_F = system.max_det();
+      if (progress)
+        progress("beat " + std::to_string(beat + 1), ida.time() / (period * protocol.time.max_beats));
+    }
+    path.beats = beat + 1;
+    path.stroke_volumes_mm3.push_back(stroke_volume(path.steps));
+    if (closed(path, protocol.time.limit_cycle_tolerance_percent)) break;
+  }
+  path.completed = true;
+  if (!closed(path, protocol.time.limit_cycle_tolerance_percent))
+    path.warnings.push_back("the pressure-volume loop did not close to " +
+                            std::to_string(protocol.time.limit_cycle_tolerance_percent) + " % in " +
+                            std::to_string(path.beats) + " beats; raise time.max_beats");
+  return finish();
+}
+
+HeartPath run_prescribed(const Ventricle& ventricle, const Protocol& protocol, const Progress& progress) {
+  HeartPath path;
+  Vector c = Vector::Zero(ventricle.num_coefficients());
+  const double duration = protocol.time.duration_ms;
+  const double target = protocol.cavities ? protocol.cavities->pressure_mmHg * kPa_per_mmHg : 0.0;
+  const auto system = ventricle.make_system();
+  const auto follow = [&](const polyaffine::EquilibriumProblem& problem,
+                          const std::function<double(double)>& pressure,
+                          const std::function<double(double)>& time) {
+    polyaffine::LoadOptions options;
+    options.first_step = options.largest_step = 1.0 / protocol.time.load_steps;
+    const auto record = [&](double load, const Vector& at) {
+      path.outputs.push_back(
+          {time(load), at, ventricle.cavity ? ventricle.cavity_volume(at) : 0.0, pressure(load), 0});
+      const auto wall = ventricle.wall->evaluate({at, problem.terms.front().state(load)});
+      path.min_det_F = std::min(path.min_det_F, wall.min_det);
+      path.max_det_F = std::max(path.max_det_F, wall.max_det);
+      if (progress) progress("loading", load);
+    };
+    if (path.outputs.empty()) record(0, c);
+    options.on_step = record;
+    const auto report = polyaffine::load_stepping(problem, *system, c, options);
+    path.time_steps += report.steps;
+    path.newton_iterations += report.iterations;
+    if (!report.converged())
+      path.stop_reason = "stopped at " + std::to_string(100 * report.reached) +
+                         " % of the load: " + polyaffine::to_string(report.last.reason);
+    return report.converged();
+  };
+
+  const Vector none;
+  const Vector at_rest = ventricle.contraction ? ventricle.contraction->tension(0) : none;
+  auto raising = loaded_ventricle(ventricle, target, at_rest);
+  const bool contracts = ventricle.contraction != nullptr;
+  path.completed = follow(
+      raising, [&](double load) { return load * target; },
+      [&](double load) { return contracts ? 0.0 : load * duration; });
+  if (path.completed && contracts) {
+    Vector tension;
+    auto problem = loaded_ventricle(ventricle, target, at_rest);
+    problem.terms.front().state = [&](double load) {
+      tension = ventricle.contraction->tension(load * duration);
+      return polyaffine::PointState(tension.data(), tension.size());
+    };
+    for (std::size_t k = 1; k < problem.terms.size(); ++k)
+      if (problem.terms[k].energy == ventricle.cavity)
+        problem.terms[k].scale = [target](double) { return -target; };
+    path.outputs.erase(path.outputs.begin(), path.outputs.end() - 1);
+    path.completed = follow(
+        problem, [&](double) { return target; }, [&](double load) { return load * duration; });
+  }
+  path.steps = path.outputs;
+  path.simulated_ms = path.outputs.back().time_ms;
+  return path;
+}
+
+}  // namespace cardiac
