@@ -48,13 +48,15 @@ double stroke_volume(const std::vector<HeartState>& steps) {
   return high->volume_mm3 - low->volume_mm3;
 }
 
-// The limit cycle is reached when the stroke volume and the volume at the begin of the beat come back.
+// The limit cycle is reached when the stroke volume, the volume and the arterial pressure come back.
 bool closed(const HeartPath& path, double tolerance_percent) {
   const auto& sv = path.stroke_volumes_mm3;
   if (sv.size() < 2) return false;
   const double allowed = tolerance_percent / 100 * std::abs(sv.back());
   return std::abs(sv.back() - sv[sv.size() - 2]) <= allowed &&
-         std::abs(path.steps.back().volume_mm3 - path.steps.front().volume_mm3) <= allowed;
+         std::abs(path.steps.back().volume_mm3 - path.steps.front().volume_mm3) <= allowed &&
+         std::abs(path.steps.back().capacitor_pressure_kPa - path.steps.front().capacitor_pressure_kPa) <=
+             tolerance_percent / 100 * path.steps.back().capacitor_pressure_kPa;
 }
 
 }  // namespace
@@ -101,8 +103,8 @@ HeartPath run_beats(const Ventricle& ventricle, const Protocol& protocol, const 
         ida.interpolate(std::min(t, ida.time()), y);
         path.outputs.push_back(system.unpack(t, path.beat_start_ms, y));
       }
-      path.min_det_F = system.min_det();
-      path.max_det_F = system.max_det();
+      path.min_det_F = std::min(path.min_det_F, system.min_det());
+      path.max_det_F = std::max(path.max_det_F, system.max_det());
       if (progress)
         progress("beat " + std::to_string(beat + 1), ida.time() / (period * protocol.time.max_beats));
     }

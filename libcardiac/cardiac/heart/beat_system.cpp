@@ -33,8 +33,8 @@ bool BeatSystem::residual(double t, const Vector& y, const Vector& rate, Vector&
   const auto wall =
       ventricle_.wall->evaluate({c, {tau.data(), static_cast<std::size_t>(tau.size())}, &c_rate});
   if (!(wall.min_det > 0)) return false;
-  min_det_ = std::min(min_det_, wall.min_det);
-  max_det_ = std::max(max_det_, wall.max_det);
+  min_det_ = wall.min_det;
+  max_det_ = wall.max_det;
   const auto cavity = ventricle_.cavity->evaluate({c});
   out.resize(size());
   out.head(num_c_) = wall.gradient - p * cavity.gradient;

@@ -24,7 +24,8 @@ class BeatSystem : public polyaffine::DaeSystem {
   /// that they count as much as the whole wall, however many coefficients it has.
   polyaffine::DaeOptions options(const protocol::Time& time) const;
 
-  /// Range of det F over all states that were accepted or tried and admissible.
+  /// Range of det F over the points in the state evaluated last; after a step that is the accepted one, but
+  /// for the last Newton correction.
   double min_det() const { return min_det_; }
   double max_det() const { return max_det_; }
 
