@@ -62,12 +62,23 @@ FrameLayout frame_layout(const polyaffine::TetMesh& mesh, const VentricularCoord
   return layout;
 }
 
+polyaffine::Mat3 cap_axes(const VentricularCoordinates& c) {
+  polyaffine::Mat3 axes;
+  axes << c.anterior(), c.axis().cross(c.anterior()), -c.axis();
+  return axes;
+}
+
+Vec3 cap_node_position(const VentricularCoordinates& c, const FrameLayout& layout) {
+  return c.base_centre() - (c.cavity_length() + layout.thickness[0] / 2) * c.axis();
+}
+
 SegmentFrames::SegmentFrames(std::shared_ptr<const VentricularCoordinates> coordinates, FrameLayout layout,
                              bool base_frames)
-    : coordinates_(std::move(coordinates)), layout_(layout), base_frames_(base_frames) {
-  const auto& c = *coordinates_;
-  cap_axes_ << c.anterior(), c.axis().cross(c.anterior()), -c.axis();
-  cap_node_ = c.base_centre() - (c.cavity_length() + layout_.thickness[0] / 2) * c.axis();
+    : coordinates_(std::move(coordinates)),
+      layout_(layout),
+      base_frames_(base_frames),
+      cap_axes_(cap_axes(*coordinates_)),
+      cap_node_(cap_node_position(*coordinates_, layout_)) {
   for (int interval = 0; interval < 4; ++interval) {
     auto& breaks = breaks_[interval];
     for (const int ring : {interval, interval + 1}) {

@@ -23,6 +23,11 @@ struct FrameLayout {
 FrameLayout frame_layout(const polyaffine::TetMesh& mesh, const VentricularCoordinates& coordinates,
                          const std::vector<double>& rings = {});
 
+/// Axes of the frame of the cap, columns longitudinal (there: anterior), circumferential, radial (out of the
+/// apex), and its node, half the thickness below the apex of the cavity (mm).
+polyaffine::Mat3 cap_axes(const VentricularCoordinates& coordinates);
+polyaffine::Vec3 cap_node_position(const VentricularCoordinates& coordinates, const FrameLayout& layout);
+
 /// One control frame for each AHA segment with piecewise linear weights in the apicobasal and rotational
 /// coordinates, φ_i = R_k(u) C_j(ψ), a partition of unity: frame s − 1 for segment s; with base frames six
 /// more at u = 1 above the basal ring. Local coordinates ξ = (l, c, t): arc length from the node along and
@@ -41,9 +46,6 @@ class SegmentFrames : public polyaffine::FrameField {
 
   const FrameLayout& layout() const { return layout_; }
   const VentricularCoordinates& coordinates() const { return *coordinates_; }
-  /// Columns longitudinal (here: anterior), circumferential, radial (out of the apex) of the cap's frame.
-  const polyaffine::Mat3& cap_axes() const { return cap_axes_; }
-  const polyaffine::Vec3& cap_node() const { return cap_node_; }
 
   /// Cell of the wall in which all weights are smooth (they have kinks at the rings and at the nodes'
   /// angles).

@@ -1,0 +1,81 @@
+#include "cardiac/anatomy/control_nodes.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <limits>
+
+#include <cardiac/fibres/helix.hpp>
+#include <polyaffine/core/error.hpp>
+#include <polyaffine/geometry/locate.hpp>
+
+namespace cardiac {
+
+using polyaffine::Mat3;
+using polyaffine::Vec3;
+using polyaffine::Vec4;
+
+namespace {
+
+double wrap(double angle) {
+  return angle - 2 * polyaffine::kPi * std::round(angle / (2 * polyaffine::kPi));
+}
+
+// How far, in mm along each coordinate, a point is from mid-wall at (u, ψ).
+Vec3 mismatch(const CoordinateSample& at, double u, double psi) {
+  return {(at.u - u) / at.grad_u.norm(), wrap(at.psi - psi) / at.grad_psi.norm(),
+          (at.t - 0.5) / at.grad_t.norm()};
+}
+
+// Newton's method on the position, from the tet whose centre matches best.
+ControlNode find(const polyaffine::TetMesh& mesh, const VentricularCoordinates& coordinates,
+                 const std::vector<CoordinateSample>& centres, double u, double psi) {
+  ControlNode node;
+  double least = std::numeric_limits<double>::infinity();
+  for (int t = 0; t < mesh.num_tets(); ++t)
+    if (const double d = mismatch(centres[t], u, psi).norm(); d < least) {
+      least = d;
+      node.tet = t;
+    }
+  node.barycentric = Vec4::Constant(0.25);
+  ControlNode best = node;
+  for (int iteration = 0; iteration < 10 && least > 1e-6; ++iteration) {
+    const CoordinateSample at = coordinates.sample(node.tet, node.barycentric);
+    Mat3 gradient;
+    gradient << at.grad_u.transpose(), at.grad_psi.transpose(), at.grad_t.transpose();
+    const Vec3 step = gradient.partialPivLu().solve(Vec3(at.u - u, wrap(at.psi - psi), at.t - 0.5));
+    const Vec3 X = polyaffine::position(mesh, node.tet, node.barycentric) - step;
+    if (!X.allFinite()) break;
+    const polyaffine::MeshPoint place = polyaffine::locate(mesh, X);
+    node.tet = place.tet;
+    node.barycentric = place.barycentric;
+    const double d = mismatch(coordinates.sample(node.tet, node.barycentric), u, psi).norm();
+    if (d >= least) continue;
+    least = d;
+    best = node;
+  }
+  best.position = coordinates.position(best.tet, best.barycentric);
+  best.axes = orthonormal_axes(coordinates.sample(best.tet, best.barycentric));
+  return best;
+}
+
+}  // namespace
+
+std::vector<ControlNode> control_nodes(const polyaffine::TetMesh& mesh,
+                                       const VentricularCoordinates& coordinates, const FrameLayout& layout) {
+  std::vector<CoordinateSample> centres;
+  for (int t = 0; t < mesh.num_tets(); ++t) centres.push_back(coordinates.sample(t, Vec4::Constant(0.25)));
+  std::vector<ControlNode> nodes;
+  for (int segment = 1; segment < kAhaSegments; ++segment)
+    nodes.push_back(
+        find(mesh, coordinates, centres, layout.rings[aha_ring(segment) - 1], aha_centre_angle(segment)));
+  ControlNode cap;
+  const polyaffine::MeshPoint place = polyaffine::locate(mesh, cap_node_position(coordinates, layout));
+  cap.tet = place.tet;
+  cap.barycentric = place.barycentric;
+  cap.position = cap_node_position(coordinates, layout);
+  cap.axes = cap_axes(coordinates);
+  nodes.push_back(cap);
+  return nodes;
+}
+
+}  // namespace cardiac

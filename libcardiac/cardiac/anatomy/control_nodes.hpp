@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include <cardiac/anatomy/segment_frames.hpp>
+
+namespace cardiac {
+
+/// The control node of a segment: where it lies in the mesh and its axes (columns longitudinal,
+/// circumferential, radial; orthonormal).
+struct ControlNode {
+  int tet = 0;
+  polyaffine::Vec4 barycentric = polyaffine::Vec4::Zero();
+  polyaffine::Vec3 position = polyaffine::Vec3::Zero();
+  polyaffine::Mat3 axes = polyaffine::Mat3::Identity();
+};
+
+/// One node a segment, in the middle of the wall at its ring and angle (the point of the mesh that comes
+/// closest); that of the cap on the long axis, with the axes of the cap's frame. Index 0 is segment 1.
+std::vector<ControlNode> control_nodes(const polyaffine::TetMesh& mesh,
+                                       const VentricularCoordinates& coordinates, const FrameLayout& layout);
+
+}  // namespace cardiac

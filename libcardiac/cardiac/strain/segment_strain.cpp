@@ -1,0 +1,91 @@
+#include "cardiac/strain/segment_strain.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <cmath>
+
+#include <cardiac/anatomy/segments.hpp>
+#include <cardiac/fibres/helix.hpp>
+
+namespace cardiac {
+
+using polyaffine::Mat3;
+using polyaffine::Matrix;
+using polyaffine::Points;
+using polyaffine::Vec3;
+
+SegmentGauge::SegmentGauge(const VentricularCoordinates& coordinates, const polyaffine::WallPoints& points)
+    : coordinates_(coordinates), X_(3, points.barycentric.cols()), weights_(points.weights) {
+  for (Eigen::Index q = 0; q < X_.cols(); ++q) {
+    const auto at = coordinates.sample(points.tet[q], points.barycentric.col(q));
+    X_.col(q) = coordinates.position(points.tet[q], points.barycentric.col(q));
+    segment_.push_back(aha_segment(coordinates.long_axis_height(X_.col(q)), at.psi));
+    axes_.push_back(orthonormal_axes(at));
+  }
+}
+
+std::vector<SegmentStrain> SegmentGauge::strain(const Matrix& F, const Matrix& F_ed) const {
+  std::vector<SegmentStrain> mean(kAhaSegments, SegmentStrain{0, 0, 0, 0, 0, 0, 0});
+  std::vector<double> volume(kAhaSegments, 0.0);
+  for (Eigen::Index q = 0; q < F.cols(); ++q) {
+    const Mat3 reference = F_ed.col(q).reshaped(3, 3);
+    const Eigen::JacobiSVD<Mat3> svd(reference, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const Mat3 rotation = svd.matrixU() * svd.matrixV().transpose();
+    const Mat3 relative = F.col(q).reshaped(3, 3) * reference.inverse() * rotation * axes_[q];
+    const Mat3 C = relative.transpose() * relative;
+    const double w = weights_[q];
+    SegmentStrain& s = mean[segment_[q] - 1];
+    volume[segment_[q] - 1] += w;
+    s.longitudinal += w * (std::sqrt(C(0, 0)) - 1);
+    s.circumferential += w * (std::sqrt(C(1, 1)) - 1);
+    s.radial += w * (std::sqrt(C(2, 2)) - 1);
+    s.shear_lc += w * 0.5 * C(0, 1);
+    s.shear_lr += w * 0.5 * C(0, 2);
+    s.shear_cr += w * 0.5 * C(1, 2);
+    s.volume_ratio += w * std::abs(relative.determinant());
+  }
+  for (int k = 0; k < kAhaSegments; ++k)
+    for (double* value : {&mean[k].longitudinal, &mean[k].circumferential, &mean[k].radial, &mean[k].shear_lc,
+                          &mean[k].shear_lr, &mean[k].shear_cr, &mean[k].volume_ratio})
+      *value /= volume[k];
+  return mean;
+}
+
+std::vector<double> SegmentGauge::rotation_deg(const Points& x, const Points& x_ed) const {
+  std::vector<double> sum(kAhaSegments, 0.0), volume(kAhaSegments, 0.0);
+  for (Eigen::Index q = 0; q < x.cols(); ++q) {
+    const double turn = coordinates_.angle(x.col(q)) - coordinates_.angle(x_ed.col(q));
+    sum[segment_[q] - 1] +=
+        weights_[q] * (turn - 2 * polyaffine::kPi * std::round(turn / (2 * polyaffine::kPi)));
+    volume[segment_[q] - 1] += weights_[q];
+  }
+  for (int k = 0; k < kAhaSegments; ++k) sum[k] *= 180 / polyaffine::kPi / volume[k];
+  return sum;
+}
+
+GlobalStrain global_strain(const std::vector<SegmentStrain>& strain, const std::vector<double>& rotation_deg,
+                           const std::vector<double>& volumes) {
+  GlobalStrain out;
+  double total = 0, apical = 0, apical_volume = 0, basal = 0, basal_volume = 0;
+  for (std::size_t k = 0; k < strain.size(); ++k) {
+    total += volumes[k];
+    out.gls_percent += 100 * volumes[k] * strain[k].longitudinal;
+    out.gcs_percent += 100 * volumes[k] * strain[k].circumferential;
+    out.grs_percent += 100 * volumes[k] * strain[k].radial;
+    const int ring = aha_ring(static_cast<int>(k) + 1);
+    if (ring == 1) {
+      apical += volumes[k] * rotation_deg[k];
+      apical_volume += volumes[k];
+    } else if (ring == 3) {
+      basal += volumes[k] * rotation_deg[k];
+      basal_volume += volumes[k];
+    }
+  }
+  out.gls_percent /= total;
+  out.gcs_percent /= total;
+  out.grs_percent /= total;
+  out.twist_deg = apical / apical_volume - basal / basal_volume;
+  return out;
+}
+
+}  // namespace cardiac

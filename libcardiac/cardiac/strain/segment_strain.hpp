@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include <cardiac/anatomy/coordinates.hpp>
+#include <cardiac/heart/beat_result.hpp>
+#include <polyaffine/kinematics/basis.hpp>
+
+namespace cardiac {
+
+/// Averages over AHA segments of strains at the integration points of a wall.
+class SegmentGauge {
+ public:
+  SegmentGauge(const VentricularCoordinates& coordinates, const polyaffine::WallPoints& points);
+
+  /// Strain of the deformation gradients F against F_ed (both 9 × points): with F_rel = F F_ed⁻¹ and C =
+  /// F_relᵀF_rel in the local axes turned with the end-diastolic rotation of the point, √C_aa − 1 along each
+  /// axis, the shears ½ C_ab, and det F_rel; means weighted by volume. One a segment, index 0 for segment 1.
+  std::vector<SegmentStrain> strain(const polyaffine::Matrix& F, const polyaffine::Matrix& F_ed) const;
+
+  /// Mean rotation about the long axis of each segment's points, from positions x_ed to x (3 × points),
+  /// degrees, counter-clockwise seen from the apex.
+  std::vector<double> rotation_deg(const polyaffine::Points& x, const polyaffine::Points& x_ed) const;
+
+  const polyaffine::Points& positions() const { return X_; }    ///< of the points, reference, mm
+  const std::vector<int>& segment() const { return segment_; }  ///< 1–17, a number a point
+  const polyaffine::Vector& weights() const { return weights_; }
+
+ private:
+  const VentricularCoordinates& coordinates_;
+  polyaffine::Points X_;
+  std::vector<int> segment_;
+  polyaffine::Vector weights_;
+  std::vector<polyaffine::Mat3> axes_;
+};
+
+/// Global strain at end systole: GLS, GCS, GRS are the means of the segments' strains weighted by volume, in
+/// percent; twist is the rotation of the apical segments (13–16) minus that of the basal ones (1–6), degrees,
+/// positive when the apex turns counter-clockwise seen from the apex against the base, as it does in a
+/// healthy heart.
+GlobalStrain global_strain(const std::vector<SegmentStrain>& strain, const std::vector<double>& rotation_deg,
+                           const std::vector<double>& segment_volumes);
+
+}  // namespace cardiac
