@@ -28,6 +28,19 @@ double rim_radius(double a, double c, double z) {
   return a * std::sqrt(1 - z * z / (c * c));
 }
 
+/// Nearest point for x on the axis (a ≤ c) or in the plane z = 0 (a > c) so near the centre that all points
+/// around the axis, or above and below the plane, are as near; takes one of them.
+Vec3 from_focal_set(double a, double c, const Vec3& x) {
+  const double r = std::hypot(x.x(), x.y());
+  const Vec3 outward = r > 0 ? Vec3(x.x() / r, x.y() / r, 0) : Vec3::UnitX();
+  if (a <= c) {
+    const double z = a < c ? x.z() * c * c / (c * c - a * a) : 0;
+    return a * std::sqrt(std::max(0.0, 1 - z * z / (c * c))) * outward + z * Vec3::UnitZ();
+  }
+  const double radius = r * a * a / (a * a - c * c);
+  return radius * outward + c * std::sqrt(std::max(0.0, 1 - radius * radius / (a * a))) * Vec3::UnitZ();
+}
+
 double distance_to(const TruncatedEllipsoid& s, int label, const Vec3& x) {
   return (project_to_surface(s, label, x) - x).norm();
 }
@@ -108,12 +121,7 @@ Vec3 project_to_ellipsoid(double a, double c, const Vec3& x) {
   };
   double low = -excess_at * (1 - 1e-12);
   double high = std::max(a, c) * (x.norm() + std::max(a, c));
-  if (excess(low) <= 0) {  // on the long axis near the centre: any direction around it is as near
-    const double z = std::clamp(a < c ? x.z() * c * c / (c * c - a * a) : x.z(), -c, c);
-    const double radius = a * std::sqrt(1 - z * z / (c * c));
-    const Vec3 direction = r > 0 ? Vec3(x.x() / r, x.y() / r, 0) : Vec3::UnitX();
-    return radius * direction + z * Vec3::UnitZ();
-  }
+  if (excess(low) <= 0) return from_focal_set(a, c, x);
   for (int i = 0; i < 200 && high - low > 1e-15 * (excess_at + std::abs(low)); ++i) {
     const double middle = (low + high) / 2;
     (excess(middle) > 0 ? low : high) = middle;

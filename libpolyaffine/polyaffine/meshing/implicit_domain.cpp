@@ -1,5 +1,10 @@
 #include "polyaffine/meshing/implicit_domain.hpp"
 
+// CGAL's own checks stay on in every build type: before 6.3 its smoothing can hide a vertex behind a
+// protected edge (CGAL pull request 9541) and without the checks goes on with freed memory instead of
+// throwing.
+#define CGAL_DEBUG
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Labeled_mesh_domain_3.h>
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
@@ -10,8 +15,12 @@
 #include <CGAL/assertions_behaviour.h>
 #include <CGAL/make_mesh_3.h>
 
+#include <cmath>
 #include <map>
+#include <optional>
 #include <polyaffine/core/error.hpp>
+#include <polyaffine/mesh/quality.hpp>
+#include <random>
 #include <string>
 
 namespace polyaffine {
@@ -39,6 +48,22 @@ void check_sizes(const ImplicitDomain& domain, const MeshSizes& sizes) {
   positive("facet_distance_mm", sizes.facet_distance_mm);
   if (!domain.edges.empty()) positive("edge_mm", sizes.edge_mm);
   positive("radius_mm", domain.radius_mm);
+}
+
+/// CGAL looks for a first surface point for ever when there is none.
+void check_inside(const ImplicitDomain& domain) {
+  std::mt19937 random(0);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  bool inside = false, outside = false;
+  for (int i = 0; i < 100000 && !(inside && outside); ++i) {
+    const Vec3 direction(coordinate(random), coordinate(random), coordinate(random));
+    if (direction.norm() > 1) continue;
+    (domain.value(domain.centre + domain.radius_mm * direction) < 0 ? inside : outside) = true;
+  }
+  if (!inside || !outside)
+    throw InputError("meshing: found " + std::string(inside ? "only points inside" : "no point inside") +
+                     " the solid within its bounding sphere of radius " + std::to_string(domain.radius_mm) +
+                     " mm, expected points on both sides of its surface");
 }
 
 Kernel::Point_3 to_cgal(const Vec3& x) {
@@ -82,31 +107,13 @@ Complex build(const ImplicitDomain& domain, const MeshSizes& sizes, int smoothin
   if (smoothing_steps > 0)
     CGAL::odt_optimize_mesh_3(complex, cgal_domain, params::max_iteration_number = smoothing_steps);
   CGAL::perturb_mesh_3(complex, cgal_domain, params::sliver_bound = sizes.min_dihedral_deg);
-  if (sizes.exude) CGAL::exude_mesh_3(complex, params::sliver_bound = sizes.min_dihedral_deg);
   return complex;
 }
 
-Complex build_with_fallback(const ImplicitDomain& domain, const MeshSizes& sizes) {
-  const QuietCgal quiet;
-  // A few steps even out the tets; many pull interior vertices apart near the edges. The perturbation of
-  // CGAL 5.5 fails an internal check on rare inputs; other starting positions avoid it.
-  for (const int smoothing_steps : {5, 4, 3, 0}) {
-    try {
-      return build(domain, sizes, smoothing_steps);
-    } catch (const CGAL::Failure_exception&) {
-      continue;
-    }
-  }
-  throw ComputationError("meshing: CGAL could not improve the mesh; try a slightly different size");
-}
-
-}  // namespace
-
-TetMesh mesh_implicit_domain(const ImplicitDomain& domain, const MeshSizes& sizes) {
-  check_sizes(domain, sizes);
-  const Complex complex = build_with_fallback(domain, sizes);
+/// The tets of the complex with projected and labelled boundary.
+TetMesh to_mesh(const Complex& complex, const ImplicitDomain& domain) {
   if (complex.number_of_cells_in_complex() == 0)
-    throw ComputationError("meshing: found no tetrahedra inside the solid; the sizes are too coarse for it");
+    throw ComputationError("found no tetrahedra inside the solid; the sizes are too coarse for it");
 
   std::map<VertexHandle, int> number;
   std::vector<VertexHandle> vertices;
@@ -140,8 +147,38 @@ TetMesh mesh_implicit_domain(const ImplicitDomain& domain, const MeshSizes& size
     }
     return TetMesh(std::move(points), std::move(tets), {}, surface);
   } catch (const InputError& error) {
-    throw ComputationError(std::string("meshing gave no valid mesh: ") + error.what());
+    throw ComputationError(std::string("no valid mesh: ") + error.what());
   }
+}
+
+}  // namespace
+
+TetMesh mesh_implicit_domain(const ImplicitDomain& domain, const MeshSizes& sizes) {
+  check_sizes(domain, sizes);
+  check_inside(domain);
+  const QuietCgal quiet;
+  // A few steps even out the tets; many pull interior vertices apart near the edges. When CGAL fails or stays
+  // far from the aim, other starting positions of the perturbation mostly help.
+  std::optional<TetMesh> best;
+  double best_dihedral_deg = 0;
+  std::string failure;
+  for (const int smoothing_steps : {5, 4, 3, 0}) {
+    try {
+      TetMesh mesh = to_mesh(build(domain, sizes, smoothing_steps), domain);
+      const double dihedral_deg = mesh_quality(mesh).min_dihedral_deg;
+      if (dihedral_deg > best_dihedral_deg) {
+        best = std::move(mesh);
+        best_dihedral_deg = dihedral_deg;
+      }
+      if (best_dihedral_deg > 0.9 * sizes.min_dihedral_deg) break;
+    } catch (const CGAL::Failure_exception&) {
+      failure = "CGAL could not improve the mesh; try a slightly different size";
+    } catch (const ComputationError& error) {
+      failure = error.what();
+    }
+  }
+  if (!best) throw ComputationError("meshing: " + failure);
+  return *std::move(best);
 }
 
 }  // namespace polyaffine

@@ -26,14 +26,13 @@ struct MeshSizes {
   double facet_distance_mm = 0;  ///< largest distance between a boundary triangle and the surface
   double edge_mm = 0;            ///< largest length of a segment of a sharp edge
   double min_dihedral_deg = 15;  ///< aim of the improvement
-  bool exude = false;            ///< also trade weights of vertices against slivers
 };
 
 /// Delaunay refinement (CGAL Mesh_3), then ODT smoothing and perturbation until the dihedral angles reach
 /// the aim or nothing more can be gained (Jamin, Alliez, Yvinec, Boissonnat 2015, ACM TOMS 41(4):23).
 ///
 /// Deterministic: the random numbers start from a fixed seed. Throws InputError for a size that is not
-/// positive, ComputationError when no valid mesh comes out.
+/// positive or a solid without a surface in its sphere, ComputationError when no valid mesh comes out.
 TetMesh mesh_implicit_domain(const ImplicitDomain& domain, const MeshSizes& sizes);
 
 }  // namespace polyaffine

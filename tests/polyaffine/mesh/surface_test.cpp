@@ -43,7 +43,6 @@ Shell cup(double a, double c, double top, int rings, int sectors) {
       shell.triangles.col(t++) << low + s, high + next, low + next;
     }
   }
-  // Seen from outside the loops above turn clockwise; the test EllipsoidLimit fixes the sign.
   return shell;
 }
 
