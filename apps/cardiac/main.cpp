@@ -27,7 +27,6 @@ int run_program(int argc, char** argv) {
   cardiac::app::add_mesh_command(app);
   cardiac::app::add_strain_command(app);
   cardiac::app::add_report_command(app);
-  cardiac::app::add_mesh_command(app);
   cardiac::app::add_schema_command(app);
   cardiac::app::add_explain_command(app);
   try {
