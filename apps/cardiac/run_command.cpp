@@ -1,12 +1,26 @@
 #include "run_command.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <memory>
 
+#include <cardiac/heart/verification.hpp>
+#include <cardiac/protocol/describe.hpp>
 #include <cardiac/protocol/plan.hpp>
+#include <cardiac/report/figures.hpp>
+#include <cardiac/report/page.hpp>
+#include <cardiac/report/summary.hpp>
+#include <cardiac/report/tables.hpp>
+#include <nlohmann/json.hpp>
+#include <polyaffine/core/atomic_file.hpp>
 #include <polyaffine/core/error.hpp>
+
+#include "load_mesh.hpp"
+#include "progress.hpp"
+#include "run_files.hpp"
 
 namespace cardiac::app {
 namespace {
@@ -16,7 +30,7 @@ struct RunOptions {
   std::string out;
   std::string method;
   std::vector<std::string> overrides;
-  bool verify = false, dry_run = false, resume = false, quiet = false, verbose = false;
+  bool verify = false, dry_run = false, quiet = false;
 };
 
 void print_plan(const std::vector<PlanItem>& items) {
@@ -28,7 +42,57 @@ void print_plan(const std::vector<PlanItem>& items) {
   }
 }
 
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// Frames and figures of an earlier, longer run would be mistaken for this one's.
+void remove_old_frames(const std::filesystem::path& out) {
+  if (!std::filesystem::is_directory(out)) return;
+  for (const auto& entry : std::filesystem::directory_iterator(out)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("heart_") && name.ends_with(".vtu")) std::filesystem::remove(entry.path());
+  }
+  std::filesystem::remove(out / "heart.pvd");
+}
+
+void write_results(const Ventricle& ventricle, const Protocol& protocol, const HeartPath& path,
+                   BeatResult& result, const std::filesystem::path& out,
+                   std::chrono::steady_clock::time_point start) {
+  const auto output_start = std::chrono::steady_clock::now();
+  const RunInfo info{CARDIAC_VERSION, resolved_json(protocol).dump(), 0};
+  polyaffine::make_folder(out);
+  remove_old_frames(out);
+  if (protocol.output.mesh_series && !path.outputs.empty())
+    write_mesh_series(ventricle, protocol, path, result, out);
+  if (protocol.output.figures) write_figures(result, out);
+  result.wall_output_s = seconds_since(output_start);
+  result.wall_total_s = seconds_since(start);
+  if (protocol.output.tables) write_tables(result, info, out);
+  polyaffine::write_atomically(out / "summary.json", summary_text(result, info));
+  if (protocol.output.figures) write_report_page(result, info, out);
+}
+
+void print_result(const BeatResult& result, const std::filesystem::path& out) {
+  std::cout << std::fixed << std::setprecision(1);
+  for (const VentricleSummary& v : result.ventricles) {
+    if (!result.has_beat || !result.completed) continue;
+    std::cout << v.name << ": EDV " << v.edv_mL << " mL, ESV " << v.esv_mL << " mL, EF " << v.ef_percent
+              << " %, peak pressure " << v.peak_pressure_mmHg << " mmHg, EDP " << v.edp_mmHg << " mmHg\n";
+    std::cout << "strain at end systole: GLS " << result.strain.gls_percent << " %, GCS "
+              << result.strain.gcs_percent << " %, GRS " << result.strain.grs_percent << " %, twist "
+              << result.strain.twist_deg << " deg\n";
+  }
+  for (const VerificationInstant& v : result.verification)
+    std::cout << "against full order at " << v.instant << ": displacement " << v.displacement_error_percent
+              << " %, volume " << v.volume_error_percent << " %, segment strain " << std::setprecision(3)
+              << v.max_segment_strain_error << std::setprecision(1) << '\n';
+  std::cout << std::setprecision(2) << result.simulated_time_s << " s of the heart in " << result.wall_solve_s
+            << " s; results in " << out.string() << '\n';
+}
+
 void run(RunOptions options) {
+  const auto start = std::chrono::steady_clock::now();
   if (!options.method.empty()) options.overrides.push_back("reduction.method=" + options.method);
   const Protocol protocol = load_protocol(options.protocol, options.overrides);
   check_mesh_file(protocol);
@@ -36,8 +100,39 @@ void run(RunOptions options) {
     for (const std::string& warning : protocol.warnings) std::cerr << "cardiac: warning: " << warning << '\n';
   }
   const std::vector<PlanItem> items = plan(protocol, options.verify);
+  const auto anatomy = std::make_shared<const Anatomy>(build_anatomy(load_mesh(protocol), protocol));
   if (options.dry_run) return print_plan(items);
-  throw polyaffine::ComputationError("only --dry-run is available");
+  const std::filesystem::path out =
+      options.out.empty() ? std::filesystem::path("results") / std::filesystem::path(options.protocol).stem()
+                          : std::filesystem::path(options.out);
+  polyaffine::make_folder(out);
+
+  const Ventricle ventricle = build_ventricle(anatomy, protocol, protocol.reduction.method);
+  const auto nodes =
+      control_nodes(anatomy->mesh, *anatomy->coordinates,
+                    frame_layout(anatomy->mesh, *anatomy->coordinates,
+                                 protocol.reduction.ring_positions.value_or(std::vector<double>{})));
+  const double setup = seconds_since(start);
+  const auto solve_start = std::chrono::steady_clock::now();
+  HeartPath path;
+  {
+    ProgressLine line(options.quiet);
+    const auto progress = [&line](const std::string& what, double fraction) { line(what, fraction); };
+    path = protocol.circulation ? run_beats(ventricle, protocol, progress)
+                                : run_prescribed(ventricle, protocol, progress);
+  }
+  const double solve = seconds_since(solve_start);
+  BeatResult result = describe_path(ventricle, nodes, protocol, path);
+  result.wall_setup_s = setup;
+  result.wall_solve_s = solve;
+  result.plan = items;
+  result.warnings.insert(result.warnings.begin(), protocol.warnings.begin(), protocol.warnings.end());
+  if (options.verify && path.completed && protocol.reduction.method == protocol::Method::polyaffine)
+    result.verification = verify_path(ventricle, protocol, path);
+  write_results(ventricle, protocol, path, result, out, start);
+  if (!options.quiet) print_result(result, out);
+  if (!path.completed)
+    throw polyaffine::ComputationError(path.stop_reason + "; what was computed is in " + out.string());
 }
 
 }  // namespace
@@ -55,9 +150,7 @@ void add_run_command(CLI::App& app) {
       ->check(CLI::IsMember({"polyaffine", "fem"}));
   command->add_flag("--verify", options->verify, "also solve full order at end diastole and end systole");
   command->add_flag("--dry-run", options->dry_run, "check the input, print what would be built, and stop");
-  command->add_flag("--resume", options->resume, "go on from the last state of an unfinished run");
-  auto* quiet = command->add_flag("--quiet", options->quiet, "no progress, no warnings");
-  command->add_flag("--verbose", options->verbose, "more detail")->excludes(quiet);
+  command->add_flag("--quiet", options->quiet, "no progress, no warnings, no summary");
   command->callback([options] { run(*options); });
 }
 

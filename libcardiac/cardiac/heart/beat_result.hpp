@@ -65,8 +65,9 @@ struct PlanItem {
   std::string why;
 };
 
-/// The reduced state against the full-order solution at one instant; errors in percent of the largest
-/// displacement and of the cavity volume, the largest difference of a segment's normal strain dimensionless.
+/// The reduced state against the full-order solution at one instant: relative L2 error of the displacement,
+/// signed error of the cavity volume, both in percent, and the largest difference of a segment's normal
+/// strain.
 struct VerificationInstant {
   std::string instant;  ///< "ED" or "ES"
   double time_ms = 0;

@@ -1,5 +1,6 @@
 #include "cardiac/strain/affine_parameters.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>

@@ -61,6 +61,14 @@ bool LagrangeBasis::turned_over(int tet) const {
   return false;
 }
 
+Eigen::Matrix4Xd LagrangeBasis::node_barycentric() const {
+  Eigen::Matrix4Xd out(4, elements_.rows());
+  out.leftCols<4>().setIdentity();
+  for (Eigen::Index e = 4; e < out.cols(); ++e)
+    out.col(e) = 0.5 * (out.col(kEdges[e - 4][0]) + out.col(kEdges[e - 4][1]));
+  return out;
+}
+
 void LagrangeBasis::shape(const Vec4& l, Vector& N, Eigen::MatrixX4d& derivative) const {
   if (order_ == 1) {
     N = l;

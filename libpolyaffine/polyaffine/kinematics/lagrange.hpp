@@ -23,6 +23,8 @@ class LagrangeBasis : public Basis {
   int num_functions() const override { return static_cast<int>(nodes_.cols()); }
   BasisSample sample(int tet, const Vec4& barycentric) const override;
 
+  /// Barycentric coordinates of an element's nodes, 4 × (4 or 10).
+  Eigen::Matrix4Xd node_barycentric() const;
   /// Values of the element's shape functions and their derivatives by the barycentric coordinates (n × 4).
   void shape(const Vec4& barycentric, Vector& N, Eigen::MatrixX4d& derivative) const;
   /// dX/dξ with ξ the last three barycentric coordinates; its determinant is six times the local volume.

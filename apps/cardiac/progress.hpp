@@ -1,0 +1,24 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace cardiac::app {
+
+/// One line on stderr that shows what runs, how far it is and when it will be done; only on a terminal, only
+/// after two seconds, and cleared at the end.
+class ProgressLine {
+ public:
+  explicit ProgressLine(bool quiet);
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+  void operator()(const std::string& what, double fraction);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  bool shown_ = false, active_;
+  Clock::time_point start_ = Clock::now(), last_ = start_;
+};
+
+}  // namespace cardiac::app

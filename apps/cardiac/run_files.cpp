@@ -1,0 +1,90 @@
+#include "run_files.hpp"
+
+#include <cardiac/fibres/helix.hpp>
+#include <polyaffine/core/error.hpp>
+
+#ifdef CARDIAC_WITH_VTK
+#include <polyaffine/vtk/write.hpp>
+#endif
+
+namespace cardiac::app {
+
+using polyaffine::Matrix;
+using polyaffine::Points;
+using polyaffine::Vec4;
+
+#ifdef CARDIAC_WITH_VTK
+namespace {
+
+// One tet and corner for each vertex of the mesh.
+polyaffine::DisplacementMap vertex_displacement(const Ventricle& ventricle) {
+  const auto& mesh = ventricle.anatomy->mesh;
+  std::vector<int> tet(mesh.num_points());
+  Eigen::Matrix4Xd barycentric = Eigen::Matrix4Xd::Zero(4, mesh.num_points());
+  for (int t = 0; t < mesh.num_tets(); ++t)
+    for (int k = 0; k < 4; ++k) {
+      tet[mesh.tets()(k, t)] = t;
+      barycentric.col(mesh.tets()(k, t)) = Vec4::Unit(k);
+    }
+  return {*ventricle.discretisation.basis, tet, barycentric};
+}
+
+Matrix tet_fibres(const Ventricle& ventricle, const protocol::Fibres& fibres) {
+  const HelixAngles angles{fibres.endo_angle_deg, fibres.epi_angle_deg, fibres.sheet_angle_deg};
+  Matrix out(3, ventricle.anatomy->mesh.num_tets());
+  for (Eigen::Index t = 0; t < out.cols(); ++t)
+    out.col(t) =
+        helix_axes(ventricle.anatomy->coordinates->sample(static_cast<int>(t), Vec4::Constant(0.25)), angles)
+            .col(0);
+  return out;
+}
+
+std::string frame_name(std::size_t k) {
+  const std::string number = std::to_string(k);
+  return "heart_" + std::string(4 - std::min<std::size_t>(4, number.size()), '0') + number + ".vtu";
+}
+
+}  // namespace
+
+void write_mesh_series(const Ventricle& ventricle, const Protocol& protocol, const HeartPath& path,
+                       const BeatResult& result, const std::filesystem::path& out) {
+  const Anatomy& anatomy = *ventricle.anatomy;
+  const auto map = vertex_displacement(ventricle);
+  const Eigen::Index tets = anatomy.mesh.num_tets();
+  polyaffine::WriteFields fields;
+  fields.cell_fields["segment"] = Matrix(1, tets);
+  for (Eigen::Index t = 0; t < tets; ++t) fields.cell_fields["segment"](0, t) = anatomy.segment[t];
+  if (protocol.fibres) fields.cell_fields["fibre"] = tet_fibres(ventricle, *protocol.fibres);
+  if (ventricle.contraction) {
+    fields.cell_fields["activation_ms"] = Matrix(1, tets);
+    for (Eigen::Index t = 0; t < tets; ++t)
+      fields.cell_fields["activation_ms"](0, t) =
+          result.segments[anatomy.segment[t] - 1].activation_ms.value_or(0);
+  }
+  std::vector<double> times;
+  std::vector<std::filesystem::path> files;
+  for (std::size_t k = 0; k < path.outputs.size(); ++k) {
+    const Points u = map.apply(path.outputs[k].c);
+    fields.point_fields["displacement_mm"] = u;
+    fields.points = anatomy.mesh.points() + u;
+    Matrix strain(3, tets);
+    for (Eigen::Index t = 0; t < tets; ++t) {
+      const SegmentStrain& s = result.instants[k].strain[anatomy.segment[t] - 1];
+      strain.col(t) << s.longitudinal, s.circumferential, s.radial;
+    }
+    fields.cell_fields["segment_strain_lcr"] = strain;
+    files.push_back(out / frame_name(k));
+    times.push_back(path.outputs[k].time_ms);
+    polyaffine::write_vtu(files.back(), anatomy.mesh, fields);
+  }
+  polyaffine::write_pvd(out / "heart.pvd", times, files);
+}
+#else
+void write_mesh_series(const Ventricle&, const Protocol&, const HeartPath&, const BeatResult&,
+                       const std::filesystem::path&) {
+  throw polyaffine::InputError(
+      "output.mesh_series: this build writes no .vtu files (VTK is off); set it to false");
+}
+#endif
+
+}  // namespace cardiac::app

@@ -1,0 +1,135 @@
+#include "cardiac/heart/result.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <cardiac/core/units.hpp>
+#include <cardiac/strain/affine_parameters.hpp>
+#include <cardiac/strain/segment_strain.hpp>
+
+namespace cardiac {
+
+using polyaffine::Matrix;
+using polyaffine::Points;
+using polyaffine::Vector;
+
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+VentricleSummary summarise(const HeartPath& path, const KeySteps& key, bool has_beat) {
+  VentricleSummary out;
+  out.name = "lv";
+  double peak = -std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < path.steps.size(); ++k) {
+    const HeartState& s = path.steps[k];
+    peak = std::max(peak, s.pressure_kPa);
+    out.samples.push_back({s.time_ms, s.volume_mm3 / mm3_per_mL, s.pressure_kPa / kPa_per_mmHg,
+                           key.phases.empty() ? Phase::filling : key.phases[k]});
+  }
+  out.edv_mL = out.esv_mL = out.sv_mL = out.ef_percent = out.edp_mmHg = kNone;
+  out.peak_pressure_mmHg = peak / kPa_per_mmHg;
+  out.ed_time_ms = path.steps[key.ed].time_ms;
+  out.es_time_ms = path.steps[key.es].time_ms;
+  if (!has_beat) return out;
+  out.edv_mL = path.steps[key.ed].volume_mm3 / mm3_per_mL;
+  out.esv_mL = path.steps[key.es].volume_mm3 / mm3_per_mL;
+  out.sv_mL = out.edv_mL - out.esv_mL;
+  out.ef_percent = 100 * out.sv_mL / out.edv_mL;
+  out.edp_mmHg = path.steps[key.ed].pressure_kPa / kPa_per_mmHg;
+  return out;
+}
+
+std::vector<SegmentInfo> segment_info(const Ventricle& ventricle) {
+  const Anatomy& anatomy = *ventricle.anatomy;
+  const auto volumes = segment_volumes(anatomy.mesh, anatomy.segment);
+  std::vector<SegmentInfo> out;
+  for (int s = 1; s <= kAhaSegments; ++s) out.push_back({s, aha_name(s), volumes[s - 1] / mm3_per_mL, {}});
+  if (!ventricle.contraction) return out;
+  Vector time = Vector::Zero(kAhaSegments);
+  Vector weight = Vector::Zero(kAhaSegments);
+  const auto& points = ventricle.discretisation.points;
+  for (std::size_t q = 0; q < points.tet.size(); ++q) {
+    const int s = anatomy.segment[points.tet[q]] - 1;
+    const auto k = static_cast<Eigen::Index>(q);
+    time[s] += points.weights[k] * ventricle.contraction->delay_ms[k];
+    weight[s] += points.weights[k];
+  }
+  for (int s = 0; s < kAhaSegments; ++s)
+    if (weight[s] > 0) out[s].activation_ms = time[s] / weight[s];
+  return out;
+}
+
+}  // namespace
+
+KeySteps key_steps(const HeartPath& path, const Protocol& protocol) {
+  KeySteps out;
+  if (path.steps.empty()) return out;
+  out.es = path.steps.size() - 1;
+  if (!protocol.circulation) return out;
+  const auto n = static_cast<Eigen::Index>(path.steps.size());
+  Vector pressure(n), capacitor(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    pressure[k] = path.steps[k].pressure_kPa;
+    capacitor[k] = path.steps[k].capacitor_pressure_kPa;
+  }
+  out.phases = classify_phases(left_heart_loop(*protocol.circulation), pressure, capacitor);
+  for (std::size_t k = 1; k < out.phases.size(); ++k) {
+    if (out.phases[k] == Phase::isovolumetric_contraction && out.phases[k - 1] == Phase::filling)
+      out.ed = k - 1;
+    if (out.phases[k] != Phase::ejection && out.phases[k - 1] == Phase::ejection) out.es = k - 1;
+  }
+  return out;
+}
+
+BeatResult describe_path(const Ventricle& ventricle, const std::vector<ControlNode>& nodes,
+                         const Protocol& protocol, const HeartPath& path) {
+  BeatResult out;
+  const Anatomy& anatomy = *ventricle.anatomy;
+  const auto& d = ventricle.discretisation;
+  out.method = d.sparse ? "fem" : "polyaffine";
+  out.has_beat = protocol.circulation.has_value();
+  out.mesh_vertices = anatomy.mesh.num_points();
+  out.mesh_tets = anatomy.mesh.num_tets();
+  out.dofs = d.num_unknowns;
+  out.control_nodes = d.sparse ? 0 : kAhaSegments;
+  out.integration_points = static_cast<int>(d.points.tet.size());
+  out.beats = path.beats;
+  out.time_steps = path.time_steps;
+  out.newton_iterations = path.newton_iterations;
+  out.simulated_time_s = path.simulated_ms / ms_per_s;
+  out.min_det_F = path.min_det_F;
+  out.max_det_F = path.max_det_F;
+  out.completed = path.completed;
+  out.stop_reason = path.stop_reason;
+  out.warnings = path.warnings;
+  out.segments = segment_info(ventricle);
+  if (path.steps.empty()) return out;
+
+  const KeySteps key = key_steps(path, protocol);
+  out.ventricles.push_back(summarise(path, key, out.has_beat));
+  const SegmentGauge gauge(*anatomy.coordinates, d.points);
+  const polyaffine::DisplacementMap displacement(*d.basis, d.points.tet, d.points.barycentric);
+  const auto positions = [&](const Vector& c) { return Points(gauge.positions() + displacement.apply(c)); };
+  const auto gradients = [&](const Vector& c) {
+    return polyaffine::evaluate_field(ventricle.wall->table(), c);
+  };
+  const auto* frames = dynamic_cast<const polyaffine::FrameBasis*>(d.basis.get());
+
+  const Matrix F_ed = gradients(path.steps[key.ed].c);
+  for (const HeartState& state : path.outputs) {
+    Instant instant{state.time_ms, gauge.strain(gradients(state.c), F_ed), {}};
+    instant.frames =
+        frames ? affine_parameters(*frames, nodes, state.c)
+               : fit_affine(nodes, gauge.segment(), gauge.positions(), positions(state.c), gauge.weights());
+    out.instants.push_back(std::move(instant));
+  }
+  std::vector<double> volumes;
+  for (const auto& s : out.segments) volumes.push_back(s.volume_mL);
+  out.strain = global_strain(
+      gauge.strain(gradients(path.steps[key.es].c), F_ed),
+      gauge.rotation_deg(positions(path.steps[key.es].c), positions(path.steps[key.ed].c)), volumes);
+  return out;
+}
+
+}  // namespace cardiac

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cardiac/anatomy/control_nodes.hpp>
+#include <cardiac/heart/beat.hpp>
+#include <cardiac/heart/beat_result.hpp>
+
+namespace cardiac {
+
+/// Indices of end diastole and end systole in the steps of a path: the last sample of filling and the last
+/// sample of ejection by the valves; without circulation the first and the last state.
+struct KeySteps {
+  std::size_t ed = 0, es = 0;
+  std::vector<Phase> phases;  ///< of every step; empty without circulation
+};
+KeySteps key_steps(const HeartPath& path, const Protocol& protocol);
+
+/// What a path means in segments, volumes and pressures. Wall times, plan and protocol warnings are the
+/// caller's.
+BeatResult describe_path(const Ventricle& ventricle, const std::vector<ControlNode>& nodes,
+                         const Protocol& protocol, const HeartPath& path);
+
+}  // namespace cardiac
