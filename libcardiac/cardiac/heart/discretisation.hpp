@@ -25,7 +25,11 @@ Anatomy build_anatomy(polyaffine::TetMesh mesh, const Protocol& protocol);
 /// Shape functions with their integration points: a full-order or a reduced model of the same wall.
 struct Discretisation {
   std::shared_ptr<const polyaffine::Basis> basis;
-  std::shared_ptr<const SegmentFrames> frames;  ///< null for full order
+  std::shared_ptr<const polyaffine::FrameBasis> frame_basis;  ///< the basis, if reduced; null for full order
+  FrameLayout layout;                                         ///< of the control frames, if reduced
+  std::shared_ptr<const SegmentFrames> frames;  ///< null for full order and with sigmoid weights
+  std::shared_ptr<const polyaffine::FrameField>
+      pressure_frames;  ///< weights of pressures, a partition of unity up to the base; null for full order
   polyaffine::WallPoints points;
   polyaffine::SurfacePoints
       cavity_points;  ///< endocardium, tangents turned so that X_ξ × X_η leaves the cavity
@@ -35,10 +39,20 @@ struct Discretisation {
   bool sparse = false;
 };
 
-/// The reduced model: segment frames with the functions that the protocol's reduction names.
+/// The reduced model: control frames of the segments with the functions that the protocol's reduction names.
+/// Weights are tents in the ventricular coordinates (SegmentFrames), or sigmoids of the geodesic distance to
+/// the border of each segment (polyaffine::RegionFrames) about the deepest vertex of the segment; the latter
+/// are clamped by the factor d = s (2 − s), s = (1 − u)/(1 − u_b), from 0 at the base (u = 1) to 1 at the
+/// basal ring u_b. With sigmoid weights the anatomy must outlive the result. Throws InputError when a segment
+/// has no interior vertex.
 Discretisation reduced_discretisation(const Anatomy& anatomy, const Protocol& protocol);
 /// Linear or quadratic finite elements on the whole mesh.
 Discretisation full_discretisation(const Anatomy& anatomy, const Protocol& protocol);
+
+/// Adds the points of the surfaces on which the protocol has loads or springs.
+void add_surface_points(const Anatomy& anatomy, const Protocol& protocol,
+                        const polyaffine::LagrangeBasis& geometry, int degree,
+                        Discretisation& discretisation);
 
 /// The pressure space of a discretisation, over the points of its deformation table.
 polyaffine::PressureSpace pressure_space(const Anatomy& anatomy, const Discretisation& discretisation,

@@ -29,6 +29,7 @@ State evaluate(const EquilibriumProblem& problem, double load, const Vector& c) 
   }
   for (std::size_t i = 0; i < problem.fixed.size(); ++i)
     if (problem.fixed[i]) out.gradient[static_cast<Eigen::Index>(i)] = 0;
+  if (problem.projection) out.gradient = problem.projection->Z * problem.projection->reduce(out.gradient);
   const double norm = out.gradient.norm();
   out.admissible &= std::isfinite(norm) && std::isfinite(out.potential);
   out.residual = out.force_scale > 0 ? norm / out.force_scale : 0;
@@ -36,6 +37,7 @@ State evaluate(const EquilibriumProblem& problem, double load, const Vector& c) 
 }
 
 void prescribe(const EquilibriumProblem& problem, double load, Vector& c) {
+  if (const auto& p = problem.projection) c = load * p->c0 + p->Z * p->reduce(c);
   for (std::size_t i = 0; i < problem.fixed.size(); ++i)
     if (problem.fixed[i]) {
       const auto k = static_cast<Eigen::Index>(i);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <polyaffine/constraint/projection.hpp>
 #include <polyaffine/energy/field_energy.hpp>
 #include <polyaffine/solve/linear_system.hpp>
 
@@ -18,11 +19,13 @@ struct PotentialTerm {
   bool wall = true;  ///< its M is a deformation gradient, det M must stay positive
 };
 
-/// Stationary points of Π(c, λ) = Σ_k s_k(λ) E_k(c), with fixed unknowns c_i = λ·prescribed_i.
+/// Stationary points of Π(c, λ) = Σ_k s_k(λ) E_k(c), with fixed unknowns c_i = λ·prescribed_i or linear
+/// constraints C c = λ d by projection (not both), solved with `projected_system`.
 struct EquilibriumProblem {
   std::vector<PotentialTerm> terms;
-  std::vector<char> fixed;  ///< by unknown; empty: none
-  Vector prescribed;        ///< by unknown, used where fixed; empty: zero
+  std::vector<char> fixed;                       ///< by unknown; empty: none
+  Vector prescribed;                             ///< by unknown, used where fixed; empty: zero
+  std::shared_ptr<const Projection> projection;  ///< null: no linear constraints
 };
 
 struct NewtonOptions {

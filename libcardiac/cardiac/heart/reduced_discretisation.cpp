@@ -1,0 +1,211 @@
+#include "cardiac/heart/discretisation.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include <cardiac/fibres/helix.hpp>
+#include <polyaffine/geometry/geodesic_regions.hpp>
+#include <polyaffine/kinematics/region_frames.hpp>
+#include <polyaffine/quadrature/cell_rule.hpp>
+
+namespace cardiac {
+
+using polyaffine::FrameFunctions;
+using polyaffine::LagrangeBasis;
+using polyaffine::Monomial;
+using polyaffine::Points;
+using polyaffine::Vec3;
+using polyaffine::Vec4;
+using polyaffine::Vector;
+using polyaffine::WallPoints;
+
+namespace {
+
+// Degree of the Gauss points of the mesh from which the points of a reduced model are chosen.
+constexpr int kCandidateDegree = 4;
+// Polynomials kept exact in a cell, along u, ψ and the depth: fibres turn by 120° through the wall.
+constexpr polyaffine::CellDegree kCellDegree{4, 4, 8};
+
+std::vector<Monomial> monomials(const Protocol& protocol) {
+  auto out = polyaffine::affine_monomials();
+  for (const auto& name : *protocol.reduction.enrichment) {
+    const Monomial m = polyaffine::parse_monomial(name);
+    if (std::find(out.begin(), out.end(), m) == out.end()) out.push_back(m);
+  }
+  return out;
+}
+
+// Functions of every frame. Within a ring the tents interpolate linearly, so Σ_j C_j(ψ) (ψ − ψ_j) = 0: of the
+// functions with a single factor c those of one frame depend on the others', and the last frame of each ring
+// goes without.
+std::vector<std::vector<Monomial>> independent(int num_frames, const std::vector<Monomial>& all) {
+  std::vector<std::vector<Monomial>> out(num_frames, all);
+  for (const int last : {5, 11, 15, 22})
+    if (last < num_frames) std::erase_if(out[last], [](const Monomial& m) { return m[1] == 1; });
+  return out;
+}
+
+// One block a segment instead of one a face: few functions are seen by many faces.
+polyaffine::SurfacePoints by_segment(const polyaffine::SurfacePoints& points,
+                                     const std::vector<int>& segment) {
+  std::vector<int> order(points.tet.size());
+  for (std::size_t q = 0; q < order.size(); ++q) order[q] = static_cast<int>(q);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return segment[points.tet[a]] < segment[points.tet[b]]; });
+  polyaffine::SurfacePoints out;
+  out.barycentric = points.barycentric(Eigen::all, order);
+  out.weights = points.weights(order);
+  out.X = points.X(Eigen::all, order);
+  out.X_xi = points.X_xi(Eigen::all, order);
+  out.X_eta = points.X_eta(Eigen::all, order);
+  for (const int q : order) {
+    const int t = points.tet[q];
+    if (out.starts.empty() || segment[t] != segment[out.tet.back()])
+      out.starts.push_back(static_cast<int>(out.tet.size()));
+    out.tet.push_back(t);
+  }
+  out.starts.push_back(static_cast<int>(out.tet.size()));
+  return out;
+}
+
+// Cell of each candidate point and its place in the cell, each coordinate 0 to 1.
+struct Cells {
+  std::vector<int> cell;
+  Points place;
+};
+
+// The tents are smooth in the cells between their kinks.
+Cells tent_cells(const Anatomy& anatomy, const SegmentFrames& frames, const WallPoints& candidates) {
+  Cells out{{}, Points(3, candidates.barycentric.cols())};
+  for (Eigen::Index q = 0; q < out.place.cols(); ++q) {
+    const CoordinateSample at = anatomy.coordinates->sample(candidates.tet[q], candidates.barycentric.col(q));
+    const auto c = frames.cell(at.u, at.psi);
+    out.cell.push_back(c.index);
+    out.place.col(q) = Vec3(c.u, c.psi, at.t);
+  }
+  return out;
+}
+
+// The segments themselves; in the cap, where angles mean little, the place across the axis.
+Cells segment_cells(const Anatomy& anatomy, const WallPoints& candidates) {
+  const VentricularCoordinates& coordinates = *anatomy.coordinates;
+  Cells out{{}, Points(3, candidates.barycentric.cols())};
+  Points low = Points::Constant(3, kAhaSegments, HUGE_VAL);
+  Points high = -low;
+  for (Eigen::Index q = 0; q < out.place.cols(); ++q) {
+    const int tet = candidates.tet[q];
+    const int segment = anatomy.segment[tet];
+    const CoordinateSample at = coordinates.sample(tet, candidates.barycentric.col(q));
+    const double from_centre = std::remainder(at.psi - aha_centre_angle(segment), 2 * polyaffine::kPi);
+    const Vec3 d = coordinates.position(tet, candidates.barycentric.col(q)) - coordinates.base_centre();
+    out.cell.push_back(segment - 1);
+    out.place.col(q) = segment == kAhaSegments
+                           ? Vec3(d.dot(coordinates.anterior()),
+                                  d.dot(coordinates.axis().cross(coordinates.anterior())), at.t)
+                           : Vec3(at.u, from_centre, at.t);
+    low.col(segment - 1) = low.col(segment - 1).cwiseMin(out.place.col(q));
+    high.col(segment - 1) = high.col(segment - 1).cwiseMax(out.place.col(q));
+  }
+  for (Eigen::Index q = 0; q < out.place.cols(); ++q) {
+    const int k = out.cell[q];
+    out.place.col(q) = (out.place.col(q) - low.col(k)).cwiseQuotient(high.col(k) - low.col(k));
+  }
+  return out;
+}
+
+// Tent weights, with boundary frames at the base that carry only functions with a factor l.
+void add_tent_basis(const Anatomy& anatomy, const Protocol& protocol, Discretisation& out) {
+  out.frames = std::make_shared<SegmentFrames>(anatomy.coordinates, out.layout, true);
+  out.pressure_frames = std::make_shared<SegmentFrames>(anatomy.coordinates, out.layout, false);
+  const bool heart_axes = protocol.reduction.axes == protocol::Axes::heart;
+  std::vector<FrameFunctions> functions;
+  const auto own = independent(out.frames->num_frames(), monomials(protocol));
+  for (int i = 0; i < out.frames->num_frames(); ++i) {
+    FrameFunctions f{own[i], heart_axes && i != kAhaSegments - 1};
+    if (i >= kAhaSegments) std::erase_if(f.monomials, [](const Monomial& m) { return m[0] == 0; });
+    functions.push_back(f);
+  }
+  out.frame_basis = std::make_shared<polyaffine::FrameBasis>(out.frames, functions);
+}
+
+// Zero on the base, one below the basal ring, with a continuous slope; at the nodes of the geometry.
+Vector clamp_factor(const VentricularCoordinates& coordinates, double basal_ring) {
+  const Vector s = ((1 - coordinates.apicobasal().array()) / (1 - basal_ring)).min(1.0);
+  return s.array() * (2 - s.array());
+}
+
+void add_sigmoid_basis(const Anatomy& anatomy, const Protocol& protocol, Discretisation& out) {
+  const polyaffine::TetMesh& mesh = anatomy.mesh;
+  std::vector<int> label;
+  for (const int s : anatomy.segment) label.push_back(s - 1);
+  const polyaffine::Matrix distances =
+      polyaffine::normalised_border_distances(polyaffine::EikonalSolver(mesh), label, kAhaSegments);
+  std::vector<polyaffine::ControlNode> nodes(kAhaSegments);
+  for (int i = 0; i < kAhaSegments; ++i) {
+    Eigen::Index deepest = 0;
+    distances.row(i).minCoeff(&deepest);
+    Eigen::Index corner = 0, tet = 0;
+    (mesh.tets().array() == static_cast<int>(deepest)).maxCoeff(&corner, &tet);
+    const CoordinateSample at = anatomy.coordinates->sample(static_cast<int>(tet), Vec4::Unit(corner));
+    nodes[i] = {mesh.points().col(deepest), orthonormal_axes(at)};
+  }
+  const auto weights = std::make_shared<polyaffine::RegionWeights>(
+      mesh, distances, polyaffine::RegionWeightOptions{.sharpness = protocol.reduction.sigmoid_slope});
+  const std::shared_ptr<const LagrangeBasis> geometry(anatomy.coordinates, &anatomy.coordinates->space());
+  const auto frames = std::make_shared<polyaffine::RegionFrames>(
+      geometry, weights, nodes, out.layout.length, clamp_factor(*anatomy.coordinates, out.layout.rings[2]));
+  out.pressure_frames = std::make_shared<polyaffine::RegionFrames>(frames->without_clamp());
+  out.frame_basis = std::make_shared<polyaffine::FrameBasis>(
+      frames, std::vector<FrameFunctions>(kAhaSegments, {monomials(protocol), false}));
+}
+
+}  // namespace
+
+Discretisation reduced_discretisation(const Anatomy& anatomy, const Protocol& protocol) {
+  Discretisation out;
+  out.layout = frame_layout(anatomy.mesh, *anatomy.coordinates,
+                            protocol.reduction.ring_positions.value_or(std::vector<double>{}));
+  const bool sigmoid = protocol.reduction.weights == protocol::Weights::sigmoid;
+  (sigmoid ? add_sigmoid_basis : add_tent_basis)(anatomy, protocol, out);
+  out.basis = out.frame_basis;
+  out.num_unknowns = 3 * out.basis->num_functions();
+  out.fixed.assign(out.num_unknowns, 0);
+
+  const LagrangeBasis& geometry = anatomy.coordinates->space();
+  const WallPoints candidates = geometry.wall_points(kCandidateDegree);
+  const Cells cells =
+      sigmoid ? segment_cells(anatomy, candidates) : tent_cells(anatomy, *out.frames, candidates);
+  out.points = protocol.reduction.integration == protocol::Integration::gauss
+                   ? polyaffine::group_cells(candidates, cells.cell)
+                   : polyaffine::compress_cells(candidates, cells.cell, cells.place, kCellDegree);
+  add_surface_points(anatomy, protocol, geometry, 1, out);
+  for (auto* points : {&out.cavity_points, &out.epicardium_points})
+    if (!points->tet.empty()) *points = by_segment(*points, anatomy.segment);
+  return out;
+}
+
+polyaffine::PressureSpace pressure_space(const Anatomy& anatomy, const Discretisation& discretisation,
+                                         const polyaffine::FieldTable& table, const Protocol& protocol) {
+  const double kappa = protocol.tissue.bulk_modulus_kPa;
+  if (!discretisation.frame_basis) return polyaffine::block_pressure(table, kappa);
+
+  using Space = protocol::PressureSpace;
+  const auto& points = discretisation.points;
+  const Space space = *protocol.reduction.pressure_space;
+  if (space == Space::segment) {
+    std::vector<int> region;
+    for (std::size_t q = 0; q < points.tet.size(); ++q) region.push_back(anatomy.segment[points.tet[q]] - 1);
+    return polyaffine::region_pressure(table, region, kAhaSegments, kappa);
+  }
+  std::vector<Monomial> functions{{0, 0, 0}, {0, 0, 1}};
+  if (space != Space::segment_depth) functions.insert(functions.end(), {{1, 0, 0}, {0, 1, 0}});
+  if (space == Space::segment_bilinear) functions.insert(functions.end(), {{1, 0, 1}, {0, 1, 1}});
+  const auto own =
+      discretisation.frames ? independent(kAhaSegments, functions) : std::vector(kAhaSegments, functions);
+  const polyaffine::Matrix values =
+      polyaffine::frame_values(*discretisation.pressure_frames, own, points.tet, points.barycentric);
+  return polyaffine::dense_pressure(table, values, kappa);
+}
+
+}  // namespace cardiac
