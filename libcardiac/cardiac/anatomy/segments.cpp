@@ -74,8 +74,7 @@ std::array<double, kAhaSegments> segment_shares(double height, double psi, doubl
     const double in_ring = above[ring] - above[ring + 1];
     for (int j = 0; j < kSize[ring]; ++j) {
       const double sector = 2 * polyaffine::kPi / kSize[ring];
-      double from_centre = std::abs(psi - j * sector);
-      from_centre = std::min(from_centre, 2 * polyaffine::kPi - from_centre) / sector;
+      const double from_centre = std::abs(std::remainder(psi - j * sector, 2 * polyaffine::kPi)) / sector;
       share[kFirst[ring] + j - 1] = ring == 0 ? in_ring : in_ring * step(0.5 - from_centre, border);
     }
   }
