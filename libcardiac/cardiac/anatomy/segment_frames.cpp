@@ -136,8 +136,10 @@ FramesAtPoint SegmentFrames::sample(int tet, const Vec4& barycentric) const {
   int k = 0;
   while (k < last - 1 && at.u > positions[k + 1]) ++k;
   const double width = positions[k + 1] - positions[k];
-  const bool beyond = at.u >= positions[last];  // without base frames the basal ring reaches up to the base
-  const double upper = beyond ? 1.0 : (at.u - positions[k]) / width;
+  // Without base frames the basal ring reaches up to the base; quadratic interpolation may pass 0 and 1 by a
+  // little.
+  const bool beyond = at.u <= 0 || at.u >= positions[last];
+  const double upper = std::clamp((at.u - positions[k]) / width, 0.0, 1.0);
   const double slope = beyond ? 0.0 : 1 / width;
   if (upper < 1) {
     if (k == 0)
