@@ -7,6 +7,7 @@
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/core/monotone_cubic.hpp>
 #include <polyaffine/geometry/laplace.hpp>
+#include <polyaffine/mesh/surface.hpp>
 
 namespace cardiac {
 
@@ -40,6 +41,21 @@ Vec3 mean_normal(const polyaffine::TetMesh& mesh, int label) {
   return sum.normalized();
 }
 
+// Middle of the open edges of a surface by their length: vertices that crowd on one side do not draw it
+// there.
+Vec3 rim_centre(const polyaffine::TetMesh& mesh, const polyaffine::Triangles& surface) {
+  Vec3 sum = Vec3::Zero();
+  double length = 0;
+  for (const auto& loop : polyaffine::rim_loops(surface))
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const Vec3 a = mesh.points().col(loop[k]);
+      const Vec3 b = mesh.points().col(loop[(k + 1) % loop.size()]);
+      sum += (b - a).norm() * (a + b) / 2;
+      length += (b - a).norm();
+    }
+  return sum / length;
+}
+
 }  // namespace
 
 VentricularCoordinates::VentricularCoordinates(const polyaffine::TetMesh& mesh, const SurfaceLabels& labels,
@@ -64,7 +80,7 @@ void VentricularCoordinates::find_axis(const polyaffine::TetMesh& mesh, const Su
     throw InputError("mesh: the endocardium and the base share " + std::to_string(rim.size()) +
                      " points, expected the closed rim of an open cavity");
   axis_ = options.long_axis ? options.long_axis->normalized() : mean_normal(mesh, labels.base);
-  base_centre_ = mesh.points()(Eigen::all, rim).rowwise().mean();
+  base_centre_ = rim_centre(mesh, mesh.surface({labels.endo}));
   for (const int p : endo)
     cavity_length_ = std::max(cavity_length_, -axis_.dot(mesh.points().col(p) - base_centre_));
 
