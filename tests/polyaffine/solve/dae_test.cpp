@@ -1,0 +1,172 @@
+#include "polyaffine/solve/dae.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <functional>
+
+namespace polyaffine {
+namespace {
+
+// A small system by functions: R(t, y, ẏ), and its derivatives by y and by ẏ.
+class SmallSystem : public DaeSystem {
+ public:
+  std::function<bool(double, const Vector&, const Vector&, Vector&)> R;
+  std::function<Matrix(double, const Vector&)> by_y;
+  Matrix by_rate;
+
+  int size() const override { return static_cast<int>(by_rate.rows()); }
+  bool residual(double t, const Vector& y, const Vector& rate, Vector& out) override {
+    return R(t, y, rate, out);
+  }
+  bool factorise(double t, const Vector& y, const Vector&, double alpha) override {
+    lu_.compute(by_y(t, y) + alpha * by_rate);
+    return lu_.isInvertible();
+  }
+  bool solve(const Vector& rhs, Vector& x) override {
+    x = lu_.solve(rhs);
+    return true;
+  }
+
+ private:
+  Eigen::FullPivLU<Matrix> lu_;
+};
+
+// ẏ = z + cos t − sin² t, 0 = z − y²: of index 1, with y = sin t, z = sin² t.
+SmallSystem index_one() {
+  SmallSystem s;
+  s.by_rate = Vector(Eigen::Vector2d(1, 0)).asDiagonal();
+  s.R = [](double t, const Vector& y, const Vector& rate, Vector& out) {
+    out.resize(2);
+    out << rate[0] - y[1] - std::cos(t) + std::pow(std::sin(t), 2), y[1] - y[0] * y[0];
+    return true;
+  };
+  s.by_y = [](double, const Vector& y) { return (Matrix(2, 2) << 0, -1, -2 * y[0], 1).finished(); };
+  return s;
+}
+
+DaeOptions options(double tolerance, const Vector& absolute) {
+  DaeOptions o;
+  o.relative_tolerance = tolerance;
+  o.absolute_tolerance = absolute;
+  return o;
+}
+
+const Vector kStart = Eigen::Vector2d(0, 0);
+const Vector kStartRate = Eigen::Vector2d(1, 0);
+
+void run_to(DaeIntegrator& integrator, double end) {
+  while (integrator.time() < end) ASSERT_EQ(integrator.step(end), DaeStatus::reached);
+}
+
+TEST(Dae, ErrorFollowsTheTolerance) {
+  double before = 1;
+  for (const double tolerance : {1e-4, 1e-6, 1e-8}) {
+    SmallSystem system = index_one();
+    DaeIntegrator integrator(system, options(tolerance, Vector::Constant(2, tolerance)), 0, kStart,
+                             kStartRate);
+    run_to(integrator, 1.5);
+    EXPECT_EQ(integrator.time(), 1.5);  // not past the limit
+    const double s = std::sin(1.5);
+    const double error = (integrator.y() - Eigen::Vector2d(s, s * s)).norm();
+    // The tolerance holds for one step; perturbations of y grow by exp(∫2 sin t), about 6, on the way.
+    EXPECT_LT(error, 300 * tolerance);
+    EXPECT_LT(error, before / 5);
+    before = error;
+  }
+}
+
+TEST(Dae, InterpolatesInsideTheLastStepAndKeepsTheLargestStep) {
+  SmallSystem system = index_one();
+  DaeOptions o = options(1e-8, Vector::Constant(2, 1e-8));
+  o.max_step = 0.01;
+  DaeIntegrator integrator(system, o, 0, kStart, kStartRate);
+  double before = 0;
+  while (integrator.time() < 1) {
+    ASSERT_EQ(integrator.step(1), DaeStatus::reached);
+    EXPECT_LE(integrator.time() - before, 0.01 * (1 + 1e-9));
+    const double middle = (before + integrator.time()) / 2;
+    Vector y;
+    integrator.interpolate(middle, y);
+    EXPECT_NEAR(y[0], std::sin(middle), 1e-6);
+    before = integrator.time();
+  }
+  EXPECT_NEAR(integrator.rate()[0], std::cos(1), 1e-5);
+}
+
+TEST(Dae, CountsItsWork) {
+  SmallSystem system = index_one();
+  long calls = 0;
+  const auto R = system.R;
+  system.R = [&calls, R](double t, const Vector& y, const Vector& rate, Vector& out) {
+    ++calls;
+    return R(t, y, rate, out);
+  };
+  DaeIntegrator integrator(system, options(1e-6, Vector::Constant(2, 1e-6)), 0, kStart, kStartRate);
+  EXPECT_EQ(integrator.counters().steps, 0);
+  long steps = 0;
+  for (; integrator.time() < 1; ++steps) ASSERT_EQ(integrator.step(1), DaeStatus::reached);
+  const DaeCounters c = integrator.counters();
+  EXPECT_EQ(c.steps, steps);
+  EXPECT_EQ(c.residuals, calls);
+  EXPECT_GT(c.newton_iterations, 0);
+  EXPECT_GT(c.factorisations, 0);
+  EXPECT_LT(c.factorisations, c.newton_iterations);  // a factorisation serves several iterations
+  EXPECT_EQ(c.convergence_failures, 0);
+}
+
+// Robertson's reactions with y₁ + y₂ + y₃ = 1 (Hairer & Wanner 1996, the values at t = 40).
+TEST(Dae, StiffReactions) {
+  SmallSystem system;
+  system.by_rate = Vec3(1, 1, 0).asDiagonal();
+  system.R = [](double, const Vector& y, const Vector& rate, Vector& out) {
+    const double forth = -0.04 * y[0] + 1e4 * y[1] * y[2];
+    out.resize(3);
+    out << rate[0] - forth, rate[1] + forth + 3e7 * y[1] * y[1], y.sum() - 1;
+    return true;
+  };
+  system.by_y = [](double, const Vector& y) {
+    Matrix J(3, 3);
+    J << 0.04, -1e4 * y[2], -1e4 * y[1], -0.04, 1e4 * y[2] + 6e7 * y[1], 1e4 * y[1], 1, 1, 1;
+    return J;
+  };
+  DaeIntegrator integrator(system, options(1e-7, Vec3(1e-9, 1e-12, 1e-9)), 0, Vec3(1, 0, 0),
+                           Vec3(-0.04, 0.04, 0));
+  run_to(integrator, 40);
+  EXPECT_NEAR(integrator.y()[0], 0.7158270688, 1e-5);
+  EXPECT_NEAR(integrator.y()[1], 9.185534765e-6, 1e-9);
+  EXPECT_NEAR(integrator.y()[2], 0.2841637457, 1e-5);
+  EXPECT_LT(integrator.counters().steps, 1000);  // an explicit method would need some 10⁵
+}
+
+TEST(Dae, AnInadmissibleStateFailsInWordsAndKeepsTheLastGoodOne) {
+  SmallSystem system = index_one();
+  const auto R = system.R;
+  system.R = [R](double t, const Vector& y, const Vector& rate, Vector& out) {
+    return y[0] < 0.5 && R(t, y, rate, out);  // sin t = ½ at t = π/6
+  };
+  DaeIntegrator integrator(system, options(1e-6, Vector::Constant(2, 1e-6)), 0, kStart, kStartRate);
+  DaeStatus status = DaeStatus::reached;
+  while (status == DaeStatus::reached && integrator.time() < 1) status = integrator.step(1);
+  ASSERT_EQ(status, DaeStatus::failed);
+  EXPECT_THAT(integrator.failure(), ::testing::HasSubstr("smallest step"));
+  EXPECT_GT(integrator.time(), 0.4);
+  EXPECT_LE(integrator.time(), 0.5237);
+  EXPECT_NEAR(integrator.y()[0], std::sin(integrator.time()), 1e-4);
+  EXPECT_LT(integrator.y()[0], 0.5);
+}
+
+TEST(Dae, ASingularTangentFailsInWords) {
+  SmallSystem system = index_one();
+  system.by_y = [](double, const Vector&) { return Matrix(Matrix::Zero(2, 2)); };  // second row stays zero
+  DaeIntegrator integrator(system, options(1e-6, Vector::Constant(2, 1e-6)), 0, kStart, kStartRate);
+  ASSERT_EQ(integrator.step(1), DaeStatus::failed);
+  EXPECT_FALSE(integrator.failure().empty());
+  EXPECT_THAT(integrator.failure(), ::testing::Not(::testing::HasSubstr("IDA code")));
+  EXPECT_EQ(integrator.time(), 0);
+}
+
+}  // namespace
+}  // namespace polyaffine
