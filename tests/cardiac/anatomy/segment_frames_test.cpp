@@ -135,17 +135,19 @@ TEST(SegmentFrames, AFrameIsAloneAtItsNodeAndItsCoordinatesVanishThere) {
 
 TEST(SegmentFrames, TheCapHasCartesianCoordinatesAboutAPointOfTheAxis) {
   const SegmentFrames frames = make_frames(true);
-  EXPECT_LT((frames.cap_axes().transpose() * frames.cap_axes() - Mat3::Identity()).norm(), 1e-12);
-  EXPECT_NEAR(frames.cap_axes().determinant(), -1, 1e-12);             // left-handed like the local axes
-  EXPECT_LT((frames.cap_axes().col(2) + Vec3::UnitZ()).norm(), 1e-6);  // out of the apex
-  EXPECT_NEAR(frames.cap_node().z(), -18.5, 0.4);  // in the middle of the wall of the apex
+  const Mat3 axes = cap_axes(frames.coordinates());
+  const Vec3 node = cap_node_position(frames.coordinates(), frames.layout());
+  EXPECT_LT((axes.transpose() * axes - Mat3::Identity()).norm(), 1e-12);
+  EXPECT_NEAR(axes.determinant(), -1, 1e-12);             // left-handed like the local axes
+  EXPECT_LT((axes.col(2) + Vec3::UnitZ()).norm(), 1e-6);  // out of the apex
+  EXPECT_NEAR(node.z(), -18.5, 0.4);                      // in the middle of the wall of the apex
   int seen = 0;
   for (int t = 0; t < LandEllipsoid::get().mesh.num_tets(); ++t) {
     auto at = by_frame(frames.sample(t, Vec4::Constant(0.25)));
     if (!at.contains(16)) continue;
     ++seen;
     const Vec3 X = frames.coordinates().position(t, Vec4::Constant(0.25));
-    EXPECT_LT((frames.cap_node() + frames.layout().length * frames.cap_axes() * at[16].xi - X).norm(), 1e-12);
+    EXPECT_LT((node + frames.layout().length * axes * at[16].xi - X).norm(), 1e-12);
   }
   EXPECT_GT(seen, 10);
 }
