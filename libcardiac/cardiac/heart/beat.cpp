@@ -65,6 +65,7 @@ HeartPath run_beats(const Ventricle& ventricle, const Protocol& protocol, const 
   const LeftHeartLoop loop = left_heart_loop(*protocol.circulation);
   const double period = ventricle.contraction->curve.period_ms();
   HeartPath path;
+  ++path.built["circulation"];
   Vector c = Vector::Zero(ventricle.num_coefficients());
   const Vector rest = ventricle.contraction->tension(0);
   if (!fill(ventricle, loop, rest, path, c)) return path;

@@ -29,6 +29,7 @@ struct HeartPath {
   bool completed = false;
   std::string stop_reason;
   std::vector<std::string> warnings;
+  BuildCount built;  ///< parts of the run beside the ventricle's
 };
 
 /// Called now and then with the time simulated and, of what is to be done at most, the fraction done.

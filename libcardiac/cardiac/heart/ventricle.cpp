@@ -46,7 +46,9 @@ std::vector<ActivationSite> sites(const Anatomy& anatomy, const protocol::Activa
 }
 
 // Activation time of each integration point, ms.
-Vector activation(const Anatomy& anatomy, const Protocol& protocol, const polyaffine::WallPoints& points) {
+Vector activation(const Anatomy& anatomy, const Protocol& protocol, const polyaffine::WallPoints& points,
+                  BuildCount& built) {
+  ++built["activation"];
   const auto& a = *protocol.activation;
   const auto n = static_cast<Eigen::Index>(points.tet.size());
   if (a.mode == protocol::ActivationMode::uniform) return Vector::Constant(n, a.onset_ms);
@@ -66,7 +68,8 @@ Vector activation(const Anatomy& anatomy, const Protocol& protocol, const polyaf
 
 std::shared_ptr<const ContractionField> build_contraction(const Anatomy& anatomy, const Protocol& protocol,
                                                           const polyaffine::WallPoints& points,
-                                                          const RegionFactors& factors) {
+                                                          const RegionFactors& factors, BuildCount& built) {
+  ++built["contraction"];
   const auto& c = *protocol.contraction;
   const BestelParameters parameters{c.activation_rate_per_s / 1000,
                                     c.relaxation_rate_per_s / 1000,
@@ -76,7 +79,7 @@ std::shared_ptr<const ContractionField> build_contraction(const Anatomy& anatomy
                                     c.switch_width_ms};
   const double period =
       protocol.circulation ? 60000 / protocol.time.heart_rate_bpm : protocol.time.duration_ms;
-  ContractionField out{TensionCurve(parameters, period), activation(anatomy, protocol, points),
+  ContractionField out{TensionCurve(parameters, period), activation(anatomy, protocol, points, built),
                        Vector::Ones(static_cast<Eigen::Index>(points.tet.size()))};
   if (!factors.tension.empty()) {
     out.scale = Eigen::Map<const Vector>(factors.tension.data(), out.scale.size());
@@ -119,16 +122,21 @@ Ventricle build_ventricle(std::shared_ptr<const Anatomy> anatomy, const Protocol
                                                        : reduced_discretisation(*anatomy, protocol);
   const auto& d = out.discretisation;
   const RegionFactors factors = region_factors(*anatomy, protocol, d.points);
-  out.wall = build_wall(*anatomy, protocol, d, factors);
-  if (!d.cavity_points.tet.empty())
+  if (!factors.stiffness.empty()) ++out.built["regions"];
+  out.wall = build_wall(*anatomy, protocol, d, factors, out.built);
+  ++out.built[method == protocol::Method::fem ? "full order" : "reduction"];
+  if (!d.cavity_points.tet.empty()) {
+    ++out.built["cavity"];
     out.cavity = std::make_shared<FieldEnergy>(
         polyaffine::surface_table(*d.basis, d.cavity_points, anatomy->coordinates->base_centre()),
         std::vector<std::shared_ptr<const polyaffine::Law>>{
             std::make_shared<polyaffine::SignedVolume>(1.0 / 3)});
+  }
   if (!d.epicardium_points.tet.empty())
     out.springs.push_back(
         normal_spring(*d.basis, d.epicardium_points, protocol.boundary.epicardial_stiffness_kPa_per_mm));
-  if (protocol.contraction) out.contraction = build_contraction(*anatomy, protocol, d.points, factors);
+  if (protocol.contraction)
+    out.contraction = build_contraction(*anatomy, protocol, d.points, factors, out.built);
   out.anatomy = std::move(anatomy);
   return out;
 }

@@ -28,6 +28,7 @@ struct Ventricle {
   std::shared_ptr<const polyaffine::FieldEnergy> cavity;  ///< its volume, mm³
   std::vector<std::shared_ptr<const polyaffine::FieldEnergy>> springs;
   std::shared_ptr<const ContractionField> contraction;
+  BuildCount built;
 
   int num_coefficients() const { return wall->table().num_unknowns(); }
   double cavity_volume(const polyaffine::Vector& c) const { return cavity->evaluate({c}).value; }

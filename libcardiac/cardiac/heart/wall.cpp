@@ -87,13 +87,15 @@ RegionFactors region_factors(const Anatomy& anatomy, const Protocol& protocol,
 
 std::shared_ptr<const polyaffine::FieldEnergy> build_wall(const Anatomy& anatomy, const Protocol& protocol,
                                                           const Discretisation& discretisation,
-                                                          const RegionFactors& factors) {
+                                                          const RegionFactors& factors, BuildCount& built) {
   auto table = polyaffine::deformation_table(*discretisation.basis, discretisation.points);
   FibreAxes fibres;
-  if (protocol.fibres)
+  if (protocol.fibres) {
+    ++built["fibres"];
     fibres = helix_fibres(
         *anatomy.coordinates, discretisation.points.tet, discretisation.points.barycentric,
         {protocol.fibres->endo_angle_deg, protocol.fibres->epi_angle_deg, protocol.fibres->sheet_angle_deg});
+  }
   const protocol::Tissue& tissue = protocol.tissue;
   std::vector<LawPointer> laws{passive_law(tissue, fibres, factors.stiffness)};
   if (protocol.contraction)

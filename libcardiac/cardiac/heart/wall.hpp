@@ -1,6 +1,8 @@
 #pragma once
 
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <cardiac/heart/discretisation.hpp>
@@ -9,17 +11,22 @@
 
 namespace cardiac {
 
-/// What the region overrides of a protocol make of each point of the wall: the product of their factors and the sum
-/// of their delays, each blended to nothing over its border by the share of its segments. Empty without overrides.
+/// How often the builder of each part ran; a part that is not in it was not built.
+using BuildCount = std::map<std::string, int>;
+
+/// What the region overrides of a protocol make of each point of the wall: the product of their factors and
+/// the sum of their delays, each blended to nothing over its border by the share of its segments. Empty
+/// without overrides.
 struct RegionFactors {
   std::vector<double> stiffness, tension, delay_ms;
 };
-RegionFactors region_factors(const Anatomy& anatomy, const Protocol& protocol, const polyaffine::WallPoints& points);
+RegionFactors region_factors(const Anatomy& anatomy, const Protocol& protocol,
+                             const polyaffine::WallPoints& points);
 
-/// The wall as an energy over its integration points: passive law, volumetric part, active stress and viscosity, each
-/// only where the protocol has it.
+/// The wall as an energy over its integration points: passive law, volumetric part, active stress and
+/// viscosity, each only where the protocol has it.
 std::shared_ptr<const polyaffine::FieldEnergy> build_wall(const Anatomy& anatomy, const Protocol& protocol,
                                                           const Discretisation& discretisation,
-                                                          const RegionFactors& factors);
+                                                          const RegionFactors& factors, BuildCount& built);
 
 }  // namespace cardiac

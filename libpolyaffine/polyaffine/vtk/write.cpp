@@ -135,7 +135,7 @@ void write_vtu(const path& file, const TetMesh& mesh, const WriteFields& fields)
   const path temporary = temporary_name(file);
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   writer->SetCompressorTypeToZLib();
-  writer->SetCompressionLevel(9);
+  writer->SetCompressionLevel(1);
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
   writer->SetFileName(temporary.c_str());
