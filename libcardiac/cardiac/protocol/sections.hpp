@@ -60,7 +60,7 @@ struct Tissue {
   double mu_kPa = 3.356;                                 ///< neo_hookean
   double c1_kPa = 1.5, c2_kPa = 0.2;                     ///< mooney_rivlin
   double youngs_modulus_kPa = 10, poisson_ratio = 0.49;  ///< saint_venant_kirchhoff
-  double bulk_modulus_kPa = 300;                         ///< every law but saint_venant_kirchhoff
+  double bulk_modulus_kPa = 1000;                        ///< every law but saint_venant_kirchhoff
   double viscosity_kPa_ms = 100;
 };
 
