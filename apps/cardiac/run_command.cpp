@@ -76,6 +76,9 @@ void write_results(const Ventricle& ventricle, const Protocol& protocol, const H
 void print_result(const BeatResult& result, const std::filesystem::path& out) {
   std::cout << std::fixed << std::setprecision(1);
   for (const VentricleSummary& v : result.ventricles) {
+    if (!result.has_beat && !v.samples.empty())
+      std::cout << v.name << ": volume " << v.samples.back().volume_mL << " mL at "
+                << v.samples.back().pressure_mmHg << " mmHg\n";
     if (!result.has_beat || !result.completed) continue;
     std::cout << v.name << ": EDV " << v.edv_mL << " mL, ESV " << v.esv_mL << " mL, EF " << v.ef_percent
               << " %, peak pressure " << v.peak_pressure_mmHg << " mmHg, EDP " << v.edp_mmHg << " mmHg\n";

@@ -107,10 +107,11 @@ void FieldEnergy::evaluate_laws(const Kinematics& kin, const Matrix& rate, const
     law->evaluate(block.first, block.count, F, motion.state, energy ? W.data() : nullptr, P.data(),
                   A ? A->data() : nullptr);
   if (viscosity_ && motion.rate) {
-    if (A) *A /= rate_factor;  // the viscous tangent is added with the factor of the rate
+    Matrix A_dot;
+    if (A) A_dot.setZero(81, block.count);
     viscosity_->evaluate(block.first, block.count, F, rate.col(block.first).data(), P.data(),
-                         A ? A->data() : nullptr);
-    if (A) *A *= rate_factor;
+                         A ? A_dot.data() : nullptr);
+    if (A) *A += rate_factor * A_dot;
   }
   if (pressure_) {
     const auto& space = pressure_->blocks[k];
