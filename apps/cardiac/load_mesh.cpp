@@ -1,5 +1,7 @@
 #include "load_mesh.hpp"
 
+#include <utility>
+
 #include <polyaffine/core/error.hpp>
 
 #include "ellipsoid_mesh.hpp"
@@ -25,13 +27,22 @@ polyaffine::TetMesh read(const Protocol& protocol) {
 #endif
 }
 
-}  // namespace
-
-polyaffine::TetMesh load_mesh(const Protocol& protocol) {
-  if (!protocol.mesh.shape) return read(protocol);
+polyaffine::TetMesh generate(const Protocol& protocol) {
   const bool human = *protocol.mesh.shape == protocol::Shape::human_lv;
   const TruncatedEllipsoid shape = human ? human_lv() : land_ellipsoid();
   return mesh_truncated_ellipsoid(shape, protocol.mesh.size_mm.value_or(default_mesh_size_mm(shape)));
+}
+
+}  // namespace
+
+Anatomy load_anatomy(const Protocol& protocol) {
+  if (protocol.mesh.shape) return build_anatomy(generate(protocol), protocol);
+  polyaffine::TetMesh mesh = read(protocol);
+  try {
+    return build_anatomy(std::move(mesh), protocol);
+  } catch (const polyaffine::InputError& error) {
+    throw polyaffine::InputError(mesh_path(protocol).string() + ": " + error.what());
+  }
 }
 
 }  // namespace cardiac::app

@@ -8,6 +8,7 @@
 #include "report_command.hpp"
 #include "run_command.hpp"
 #include "schema_command.hpp"
+#include "segment_command.hpp"
 #include "strain_command.hpp"
 
 namespace {
@@ -25,6 +26,7 @@ int run_program(int argc, char** argv) {
   app.require_subcommand(1);
   cardiac::app::add_run_command(app);
   cardiac::app::add_mesh_command(app);
+  cardiac::app::add_segment_command(app);
   cardiac::app::add_strain_command(app);
   cardiac::app::add_report_command(app);
   cardiac::app::add_schema_command(app);

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "ellipsoid_mesh.hpp"
+#include "output_file.hpp"
 
 #ifdef CARDIAC_WITH_VTK
 #include <polyaffine/vtk/write.hpp>
@@ -68,11 +69,7 @@ void run_ellipsoid(const EllipsoidOptions& o) {
 #ifndef CARDIAC_WITH_VTK
   throw InputError("cardiac mesh: this build was made without VTK (CMake option POLYAFFINE_WITH_VTK)");
 #endif
-  if (o.out.extension() != ".vtu")
-    throw InputError("--out: found \"" + o.out.string() + "\", expected a file name that ends in .vtu");
-  const auto folder = o.out.has_parent_path() ? o.out.parent_path() : std::filesystem::path(".");
-  if (!std::filesystem::is_directory(folder))
-    throw InputError("--out: found no folder " + folder.string() + " to write into");
+  check_output_file(o.out, ".vtu");
   const TruncatedEllipsoid shape = chosen_shape(o);
   const TetMesh mesh = mesh_truncated_ellipsoid(shape, o.size_mm.value_or(default_mesh_size_mm(shape)));
   write_mesh(o.out, mesh);

@@ -103,7 +103,7 @@ void run(RunOptions options) {
     for (const std::string& warning : protocol.warnings) std::cerr << "cardiac: warning: " << warning << '\n';
   }
   const std::vector<PlanItem> items = plan(protocol, options.verify);
-  const auto anatomy = std::make_shared<const Anatomy>(build_anatomy(load_mesh(protocol), protocol));
+  const auto anatomy = std::make_shared<const Anatomy>(load_anatomy(protocol));
   if (options.dry_run) return print_plan(items);
   const std::filesystem::path out =
       options.out.empty() ? std::filesystem::path("results") / std::filesystem::path(options.protocol).stem()

@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <sstream>
 
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/core/monotone_cubic.hpp>
@@ -25,10 +27,36 @@ namespace {
 constexpr double kSmoothing = 0.3;
 
 void require_label(const polyaffine::TetMesh& mesh, int label, const char* name) {
-  const auto& labels = mesh.boundary_labels();
-  if (std::find(labels.begin(), labels.end(), label) == labels.end())
-    throw InputError(std::string("mesh: no boundary triangle has the label ") + std::to_string(label) +
-                     " of the surface \"" + name + "\"; give the labels of the mesh in [mesh]");
+  const std::set<int> labels(mesh.boundary_labels().begin(), mesh.boundary_labels().end());
+  if (labels.contains(label)) return;
+  std::string found;
+  for (const int l : labels)
+    found += (found.empty() ? "" : ", ") +
+             (l == polyaffine::TetMesh::kUnlabelled ? std::string("none") : std::to_string(l));
+  throw InputError(std::string("mesh: found no boundary triangle with the label ") + std::to_string(label) +
+                   " of the surface \"" + name + "\" (labels found: " + found + "), expected one; " + name +
+                   "_label must be a label of the mesh");
+}
+
+std::string text(const Vec3& v) {
+  std::ostringstream out;
+  out << '(' << v.x() << ", " << v.y() << ", " << v.z() << ')';
+  return out.str();
+}
+
+// The one open edge of the endocardium, which must run along the base.
+std::vector<int> cavity_rim(const polyaffine::TetMesh& mesh, const SurfaceLabels& labels) {
+  const auto loops = polyaffine::rim_loops(mesh.surface({labels.endo}));
+  if (loops.size() != 1)
+    throw InputError("open cavity: found " + std::to_string(loops.size()) +
+                     " rims of the endocardium, expected one, at the base");
+  const std::vector<int> base = mesh.surface_points({labels.base});
+  for (const int p : loops.front())
+    if (!std::binary_search(base.begin(), base.end(), p))
+      throw InputError("open cavity: found the rim of the endocardium off the base at " +
+                       text(mesh.points().col(p)) +
+                       " mm, expected the endocardium to reach the base all round");
+  return loops.front();
 }
 
 Vec3 mean_normal(const polyaffine::TetMesh& mesh, int label) {
@@ -41,30 +69,29 @@ Vec3 mean_normal(const polyaffine::TetMesh& mesh, int label) {
   return sum.normalized();
 }
 
-// Middle of the open edges of a surface by their length: vertices that crowd on one side do not draw it
+// Middle of a closed line by its length: vertices that crowd on one side do not draw it
 // there.
-Vec3 rim_centre(const polyaffine::TetMesh& mesh, const polyaffine::Triangles& surface) {
+Vec3 rim_centre(const polyaffine::TetMesh& mesh, const std::vector<int>& rim) {
   Vec3 sum = Vec3::Zero();
   double length = 0;
-  for (const auto& loop : polyaffine::rim_loops(surface))
-    for (std::size_t k = 0; k < loop.size(); ++k) {
-      const Vec3 a = mesh.points().col(loop[k]);
-      const Vec3 b = mesh.points().col(loop[(k + 1) % loop.size()]);
-      sum += (b - a).norm() * (a + b) / 2;
-      length += (b - a).norm();
-    }
+  for (std::size_t k = 0; k < rim.size(); ++k) {
+    const Vec3 a = mesh.points().col(rim[k]);
+    const Vec3 b = mesh.points().col(rim[(k + 1) % rim.size()]);
+    sum += (b - a).norm() * (a + b) / 2;
+    length += (b - a).norm();
+  }
   return sum / length;
 }
 
 }  // namespace
 
 VentricularCoordinates::VentricularCoordinates(const polyaffine::TetMesh& mesh, const SurfaceLabels& labels,
-                                               const AnatomyOptions& options)
-    : space_(std::make_shared<polyaffine::LagrangeBasis>(mesh, 2, polyaffine::smooth_midpoints(mesh))) {
+                                               const AnatomyOptions& options) {
   require_label(mesh, labels.endo, "endo");
   require_label(mesh, labels.epi, "epi");
   require_label(mesh, labels.base, "base");
   find_axis(mesh, labels, options);
+  space_ = std::make_shared<polyaffine::LagrangeBasis>(mesh, 2, polyaffine::smooth_midpoints(mesh));
   solve_transmural(mesh, labels);
   solve_apicobasal(mesh, labels);
   build_axes();
@@ -72,22 +99,16 @@ VentricularCoordinates::VentricularCoordinates(const polyaffine::TetMesh& mesh, 
 
 void VentricularCoordinates::find_axis(const polyaffine::TetMesh& mesh, const SurfaceLabels& labels,
                                        const AnatomyOptions& options) {
-  const std::vector<int> endo = mesh.surface_points({labels.endo});
-  const std::vector<int> base = mesh.surface_points({labels.base});
-  std::vector<int> rim;
-  std::set_intersection(endo.begin(), endo.end(), base.begin(), base.end(), std::back_inserter(rim));
-  if (rim.size() < 3)
-    throw InputError("mesh: the endocardium and the base share " + std::to_string(rim.size()) +
-                     " points, expected the closed rim of an open cavity");
   axis_ = options.long_axis ? options.long_axis->normalized() : mean_normal(mesh, labels.base);
-  base_centre_ = rim_centre(mesh, mesh.surface({labels.endo}));
-  for (const int p : endo)
+  base_centre_ = rim_centre(mesh, cavity_rim(mesh, labels));
+  for (const int p : mesh.surface_points({labels.endo}))
     cavity_length_ = std::max(cavity_length_, -axis_.dot(mesh.points().col(p) - base_centre_));
 
   const Vec3 across = options.anterior - options.anterior.dot(axis_) * axis_;
   if (!(across.norm() > 0.05 * options.anterior.norm()))  // about 3°: below it the direction says nothing
-    throw InputError(
-        "anatomy.anterior_direction: is parallel to the long axis, expected a direction across it");
+    throw InputError("anterior direction (anatomy.anterior_direction, --anterior): found " +
+                     text(options.anterior) + ", parallel to the long axis " + text(axis_) +
+                     ", expected a direction across it");
   anterior_ = across.normalized();
   septal_ = -axis_.cross(anterior_);
 }

@@ -37,8 +37,8 @@ struct CoordinateSample {
 /// mesh.
 class VentricularCoordinates {
  public:
-  /// Throws InputError when a label is missing, the cavity is not open at the base, or the anterior direction
-  /// is parallel to the long axis.
+  /// Throws InputError when a label is missing, the endocardium has not exactly one rim or that leaves the
+  /// base, or the anterior direction is parallel to the long axis.
   VentricularCoordinates(const polyaffine::TetMesh& mesh, const SurfaceLabels& labels,
                          const AnatomyOptions& options);
 

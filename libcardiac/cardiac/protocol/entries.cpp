@@ -125,7 +125,7 @@ std::vector<Entry> read_override(const std::string& assignment) {
   if (!std::regex_match(path, std::regex("[A-Za-z0-9_-]+(\\.[A-Za-z0-9_-]+)*")) || value.empty()) {
     throw polyaffine::InputError(option + ": expected key.path=value, for instance time.heart_rate_bpm=60");
   }
-  const bool word = std::regex_match(value, std::regex("[A-Za-z_][A-Za-z0-9_./-]*")) && value != "true" &&
+  const bool word = std::regex_match(value, std::regex("[A-Za-z_./][A-Za-z0-9_./-]*")) && value != "true" &&
                     value != "false" && value != "inf" && value != "nan";
   try {
     return Flattening(option, false).document(toml::parse(path + " = " + (word ? '"' + value + '"' : value)));

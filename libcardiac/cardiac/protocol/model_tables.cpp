@@ -12,7 +12,7 @@ Table mesh_table() {
                      &Protocol::mesh);
   table
       .key("file", &Mesh::file,
-           {.meaning = "tetrahedral mesh (.vtu, .vtk), path relative to the protocol file",
+           {.meaning = "tetrahedral mesh (.vtu), path relative to the protocol file",
             .absent = "an idealised shape is meshed"})
       .key("length_unit", &Mesh::length_unit,
            {.meaning = "length unit of the coordinates in the mesh file; required with file, never guessed",

@@ -115,7 +115,7 @@ std::filesystem::path mesh_path(const Protocol& protocol) {
 void check_mesh_file(const Protocol& protocol) {
   if (protocol.mesh.file && !std::filesystem::is_regular_file(mesh_path(protocol))) {
     throw InputError("mesh.file: no such file " + mesh_path(protocol).string() +
-                     "; expected a tetrahedral mesh (.vtu, .vtk), its path relative to the protocol file");
+                     "; expected a tetrahedral mesh (.vtu), its path relative to the protocol file");
   }
 }
 

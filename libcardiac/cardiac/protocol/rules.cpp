@@ -25,9 +25,9 @@ void check_mesh(const Mesh& mesh, const Place& place) {
   }
   if (mesh.shape) return;
   const std::string extension = std::filesystem::path(*mesh.file).extension().string();
-  if (extension != ".vtu" && extension != ".vtk") {
+  if (extension != ".vtu") {
     fail(place, "mesh.file",
-         "found \"" + *mesh.file + "\", expected a tetrahedral mesh with the extension .vtu or .vtk");
+         "found \"" + *mesh.file + "\", expected a tetrahedral mesh with the extension .vtu");
   }
   if (!mesh.length_unit) {
     fail(place, "mesh.length_unit",

@@ -55,6 +55,8 @@ void make_folder(const fs::path& folder) {
   fs::create_directories(folder, error);
   if (!error && !fs::is_directory(folder)) error = std::make_error_code(std::errc::not_a_directory);
   if (error) throw InputError("cannot make the folder " + folder.string() + ": " + error.message());
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    throw InputError("cannot write into the folder " + folder.string() + ": " + reason(errno));
 }
 
 void write_atomically(const fs::path& target, const std::function<void(const fs::path&)>& write) {

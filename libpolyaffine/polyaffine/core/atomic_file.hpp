@@ -6,7 +6,8 @@
 
 namespace polyaffine {
 
-/// Makes `folder` and its parents where missing. Throws InputError naming the path and the system's reason.
+/// Makes `folder` and its parents where missing. Throws InputError naming the path and the system's reason,
+/// also where the folder cannot be written into.
 void make_folder(const std::filesystem::path& folder);
 
 /// Calls `write` with a temporary name in the folder of `target` (same extension), then renames the file to

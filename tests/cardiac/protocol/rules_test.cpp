@@ -14,7 +14,7 @@ TEST(Rules, MeshIsEitherFileOrShape) {
   EXPECT_THAT(refusal(file + "file = \"heart.obj\"\n"),
               AllOf(HasSubstr("heart.toml:7: mesh.file"), HasSubstr("heart.obj"), HasSubstr(".vtu")));
   EXPECT_THAT(refusal(file + "file = \"heart.vtu\"\nepi_label = 1\n"), HasSubstr("must differ"));
-  EXPECT_NO_THROW(parsed(file + "file = \"heart.vtk\"\n"));
+  EXPECT_NO_THROW(parsed(file + "file = \"heart.vtu\"\n"));
 }
 
 TEST(Rules, DirectionsMustSpanAPlane) {

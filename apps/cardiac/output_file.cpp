@@ -1,0 +1,20 @@
+#include "output_file.hpp"
+
+#include <polyaffine/core/error.hpp>
+
+namespace cardiac::app {
+
+using polyaffine::InputError;
+
+void check_output_file(const std::filesystem::path& file, const std::string& extension) {
+  if (file.extension() != extension)
+    throw InputError("--out: found \"" + file.string() + "\", expected a file name that ends in " +
+                     extension);
+  const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+  if (!std::filesystem::is_directory(folder))
+    throw InputError("--out: found no folder " + folder.string() + " to write into");
+  if (std::filesystem::is_directory(file))
+    throw InputError("--out: found the folder " + file.string() + ", expected a file name");
+}
+
+}  // namespace cardiac::app

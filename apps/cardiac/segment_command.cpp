@@ -1,0 +1,181 @@
+#include "segment_command.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <cardiac/anatomy/control_nodes.hpp>
+#include <cardiac/core/units.hpp>
+#include <cardiac/fibres/helix.hpp>
+#include <cardiac/heart/discretisation.hpp>
+#include <polyaffine/core/error.hpp>
+#include <polyaffine/mesh/surface.hpp>
+
+#include "load_mesh.hpp"
+#include "output_file.hpp"
+
+#ifdef CARDIAC_WITH_VTK
+#include <polyaffine/vtk/write.hpp>
+#endif
+
+namespace cardiac::app {
+namespace {
+
+using polyaffine::InputError;
+using polyaffine::Matrix;
+using polyaffine::TetMesh;
+
+struct SegmentOptions {
+  std::filesystem::path mesh, out;
+  std::string scheme, length_unit, label_array = "surface";
+  SurfaceLabels labels;
+  std::vector<double> anterior{0, 1, 0}, long_axis;
+  HelixAngles angles;
+};
+
+protocol::LengthUnit length_unit(const std::string& word) {
+  if (word == "mm") return protocol::LengthUnit::mm;
+  if (word == "cm") return protocol::LengthUnit::cm;
+  if (word == "m") return protocol::LengthUnit::m;
+  throw InputError("--length-unit: found \"" + word +
+                   "\", expected the length unit of the mesh: mm, cm or m");
+}
+
+protocol::Vector3 direction(const char* option, const std::vector<double>& v) {
+  const Eigen::Map<const polyaffine::Vec3> d(v.data());
+  if (!d.allFinite() || d.norm() == 0)
+    throw InputError(std::string(option) +
+                     ": found a vector without a direction, expected three finite numbers, not all zero");
+  return {d.x(), d.y(), d.z()};
+}
+
+void check_scheme(const std::string& scheme) {
+  if (scheme == "aha29")
+    throw InputError(
+        "--scheme: found aha29, which divides two ventricles and is not supported for the mesh of a left "
+        "ventricle; expected aha17");
+  if (scheme != "aha17") throw InputError("--scheme: found \"" + scheme + "\", expected aha17");
+}
+
+// The tables [mesh] and [anatomy] of a protocol, from the options.
+Protocol as_protocol(const SegmentOptions& o) {
+  Protocol protocol;
+  protocol.mesh.file = o.mesh.string();
+  protocol.mesh.length_unit = length_unit(o.length_unit);
+  protocol.mesh.label_array = o.label_array;
+  protocol.mesh.endo_label = o.labels.endo;
+  protocol.mesh.epi_label = o.labels.epi;
+  protocol.mesh.base_label = o.labels.base;
+  protocol.anatomy.anterior_direction = direction("--anterior", o.anterior);
+  if (!o.long_axis.empty()) protocol.anatomy.long_axis = direction("--long-axis", o.long_axis);
+  return protocol;
+}
+
+#ifdef CARDIAC_WITH_VTK
+polyaffine::WriteFields fields(const Anatomy& anatomy, const std::vector<ControlNode>& nodes,
+                               const HelixAngles& angles) {
+  const TetMesh& mesh = anatomy.mesh;
+  const VentricularCoordinates& coordinates = *anatomy.coordinates;
+  polyaffine::WriteFields out;
+  const int tets = mesh.num_tets();
+  std::vector<int> all(tets);
+  for (int t = 0; t < tets; ++t) all[t] = t;
+  const auto centres = Eigen::Matrix4Xd::Constant(4, tets, 0.25).eval();
+  out.cell_fields["segment"] =
+      Eigen::Map<const Eigen::RowVectorXi>(anatomy.segment.data(), tets).cast<double>();
+  out.cell_fields["fibre"] = helix_fibres(coordinates, all, centres, angles).topRows(3);
+  Matrix& node = out.cell_fields["control_node"] = Matrix::Zero(1, tets);
+  for (std::size_t i = 0; i < nodes.size(); ++i) node(0, nodes[i].tet) = static_cast<double>(i + 1);
+
+  const int points = mesh.num_points();
+  const Matrix axes = coordinates.axes().leftCols(points);
+  out.point_fields["apicobasal"] = coordinates.apicobasal().head(points).transpose();
+  out.point_fields["transmural"] = coordinates.transmural().head(points).transpose();
+  out.point_fields["e_l"] = axes.topRows(3);
+  out.point_fields["e_c"] = axes.middleRows(3, 3);
+  out.point_fields["e_r"] = axes.bottomRows(3);
+  Matrix& angle = out.point_fields["rotational_rad"] = Matrix(1, points);
+  Matrix& fibre = out.point_fields["fibre"] = Matrix(3, points);
+  for (int p = 0; p < points; ++p) {
+    CoordinateSample at;
+    at.t = coordinates.transmural()[p];
+    at.Q = axes.col(p).reshaped(3, 3);
+    angle(0, p) = coordinates.angle(mesh.points().col(p));
+    fibre.col(p) = helix_axes(at, angles).col(0);
+  }
+  return out;
+}
+
+void write_fields(const SegmentOptions& o, const Anatomy& anatomy, const std::vector<ControlNode>& nodes) {
+  polyaffine::write_vtu(o.out, anatomy.mesh, fields(anatomy, nodes, o.angles));
+}
+#else
+void write_fields(const SegmentOptions&, const Anatomy&, const std::vector<ControlNode>&) {
+  throw InputError("cardiac segment: this build was made without VTK (CMake option POLYAFFINE_WITH_VTK)");
+}
+#endif
+
+void print_segments(const Anatomy& anatomy, const std::vector<ControlNode>& nodes) {
+  const auto volumes = segment_volumes(anatomy.mesh, anatomy.segment);
+  const polyaffine::EnclosedVolume cavity(anatomy.mesh, {anatomy.labels.endo});
+  std::cout << "segment  name                 volume_mL   tets  node_x_mm  node_y_mm  node_z_mm\n"
+            << std::fixed;
+  for (int s = 1; s <= kAhaSegments; ++s) {
+    const polyaffine::Vec3& X = nodes[s - 1].position;
+    std::cout << std::setw(7) << s << "  " << std::left << std::setw(19) << aha_name(s) << std::right
+              << std::setprecision(4) << std::setw(11) << volumes[s - 1] / mm3_per_mL << std::setw(7)
+              << std::count(anatomy.segment.begin(), anatomy.segment.end(), s) << std::setprecision(2)
+              << std::setw(11) << X.x() << std::setw(11) << X.y() << std::setw(11) << X.z() << '\n';
+  }
+  std::cout << std::setprecision(4) << "wall    " << anatomy.mesh.volume() / mm3_per_mL << " mL in "
+            << anatomy.mesh.num_tets() << " tets\ncavity  "
+            << cavity.value(anatomy.mesh.points()) / mm3_per_mL << " mL\n";
+}
+
+void segment(const SegmentOptions& o) {
+  check_scheme(o.scheme);
+  check_output_file(o.out, ".vtu");
+  const Anatomy anatomy = load_anatomy(as_protocol(o));
+  const auto nodes =
+      control_nodes(anatomy.mesh, *anatomy.coordinates, frame_layout(anatomy.mesh, *anatomy.coordinates));
+  write_fields(o, anatomy, nodes);
+  print_segments(anatomy, nodes);
+  std::cout << "written " << o.out.string() << " (lengths in mm)\n";
+}
+
+}  // namespace
+
+void add_segment_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "segment", "Divide a ventricle mesh: coordinates, AHA segments, control nodes and fibres as fields");
+  const auto o = std::make_shared<SegmentOptions>();
+  command->add_option("MESH", o->mesh, "tetrahedral mesh with labelled surfaces (.vtu)")->required();
+  command->add_option("--scheme", o->scheme, "aha17 (left ventricle)")->required();
+  command->add_option("--length-unit", o->length_unit, "length unit of the mesh: mm, cm or m")->required();
+  command->add_option("--out", o->out, "file to write, .vtu, lengths in mm")->required();
+  command->add_option("--label-array", o->label_array, "cell array of the surface labels")
+      ->capture_default_str();
+  command->add_option("--endo-label", o->labels.endo, "label of the endocardium")->capture_default_str();
+  command->add_option("--epi-label", o->labels.epi, "label of the epicardium")->capture_default_str();
+  command->add_option("--base-label", o->labels.base, "label of the base")->capture_default_str();
+  command->add_option("--anterior", o->anterior, "direction from the long axis to the anterior wall")
+      ->expected(3)
+      ->capture_default_str();
+  command
+      ->add_option("--long-axis", o->long_axis, "direction from apex to base (default: normal of the base)")
+      ->expected(3);
+  const CLI::Range angle(-90.0, 90.0);
+  command->add_option("--endo-angle", o->angles.endo_deg, "helix angle at the endocardium, deg")
+      ->check(angle)
+      ->capture_default_str();
+  command->add_option("--epi-angle", o->angles.epi_deg, "helix angle at the epicardium, deg")
+      ->check(angle)
+      ->capture_default_str();
+  command->callback([o] { segment(*o); });
+}
+
+}  // namespace cardiac::app
