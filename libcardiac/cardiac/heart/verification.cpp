@@ -64,7 +64,8 @@ Comparison compare(const Ventricle& reduced, const Ventricle& full, const HeartS
                        .apply(state.c);
   const Vector error = (u - v).colwise().squaredNorm();
   const Vector norm = u.colwise().squaredNorm();
-  out.displacement_error = std::sqrt(points.weights.dot(error) / points.weights.dot(norm));
+  const double size = points.weights.dot(norm);
+  out.displacement_error = size > 0 ? std::sqrt(points.weights.dot(error) / size) : 0;
   if (full.cavity) out.volume_error = reduced.cavity_volume(state.c) / full.cavity_volume(c) - 1;
   out.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return out;

@@ -1,0 +1,145 @@
+#include "cardiac/heart/beat_system.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <cardiac/core/units.hpp>
+
+#include "support/heart_run.hpp"
+#include "support/random_vector.hpp"
+
+namespace cardiac {
+namespace {
+
+using polyaffine::Vector;
+using polyaffine::testing::random_vector;
+
+/// A beat on the coarse Land ellipsoid.
+struct LandBeat {
+  Protocol protocol;
+  Ventricle ventricle;
+
+  explicit LandBeat(std::vector<std::string> overrides = {})
+      : protocol(testing::shipped_protocol("healthy_lv", testing::on_land_ellipsoid(std::move(overrides)))),
+        ventricle(build_ventricle(testing::read_anatomy(protocol), protocol, protocol.reduction.method)) {}
+};
+
+struct LoopState {
+  const char* name;
+  double pressure_mmHg, arterial_mmHg;
+};
+constexpr std::array kLoopStates{LoopState{"filling", 9.5, 80}, LoopState{"both valves closed", 50, 80},
+                                 LoopState{"ejection", 82, 80}};
+
+struct Point {
+  double t;
+  Vector y, rate;
+};
+
+Point random_point(const LandBeat& beat, BeatSystem& system, const LoopState& loop, double wall_rate,
+                   unsigned seed) {
+  // Coefficients of 0.02 mm leave det F well above 0; at 250 ms the wall contracts.
+  const Vector c = random_vector(beat.ventricle.num_coefficients(), 0.02, seed);
+  const HeartState state{250, c, beat.ventricle.cavity_volume(c), loop.pressure_mmHg * kPa_per_mmHg,
+                         loop.arterial_mmHg * kPa_per_mmHg};
+  Vector rate = random_vector(system.size(), 1, seed + 1);
+  rate.head(c.size()) *= wall_rate;
+  return {250, system.pack(state), rate};
+}
+
+/// (∂R/∂y + α ∂R/∂ẏ) d by central differences.
+Vector times_jacobian(BeatSystem& system, const Point& p, double alpha, const Vector& d, double h) {
+  Vector plus, minus;
+  EXPECT_TRUE(system.residual(p.t, p.y + h * d, p.rate + alpha * h * d, plus));
+  EXPECT_TRUE(system.residual(p.t, p.y - h * d, p.rate - alpha * h * d, minus));
+  return (plus - minus) / (2 * h);
+}
+
+/// Largest error of J⁻¹(J d) against d, wall and loop each by its own size.
+double inversion_error(BeatSystem& system, const Point& p, double alpha, unsigned seed) {
+  const auto n = system.size() - 3;
+  Vector d = random_vector(system.size(), 1, seed);
+  d[n] *= 100;  // mm³
+  const Vector image = times_jacobian(system, p, alpha, d, 1e-5);
+  Vector x;
+  EXPECT_TRUE(system.factorise(p.t, p.y, p.rate, alpha));
+  EXPECT_TRUE(system.solve(image, x));
+  double error = (x - d).head(n).norm() / d.head(n).norm();
+  for (int k = 0; k < 3; ++k) error = std::max(error, std::abs(x[n + k] / d[n + k] - 1));
+  return error;
+}
+
+// Differences at a step of 1e-5 keep about eight digits; the condition of the system takes some of them.
+constexpr double kExact = 1e-4;
+
+TEST(BeatSystem, SolveInvertsTheDerivativeOfTheResidual) {
+  const LandBeat beat({"tissue.viscosity_kPa_ms=0"});
+  BeatSystem system(beat.ventricle, left_heart_loop(*beat.protocol.circulation));
+  unsigned seed = 1;
+  for (const LoopState& loop : kLoopStates)
+    for (const double alpha : {0.05, 1.0, 20.0}) {
+      SCOPED_TRACE(std::string(loop.name) + ", alpha " + std::to_string(alpha));
+      const Point p = random_point(beat, system, loop, 0.01, seed);
+      EXPECT_LT(inversion_error(system, p, alpha, seed + 7), kExact);
+      seed += 10;
+    }
+}
+
+TEST(BeatSystem, ViscosityIsExactAtRestAndClosesInWithTheStepInMotion) {
+  const LandBeat beat;
+  BeatSystem system(beat.ventricle, left_heart_loop(*beat.protocol.circulation));
+  ASSERT_GT(beat.protocol.tissue.viscosity_kPa_ms, 0);
+  const Point rest = random_point(beat, system, kLoopStates[1], 0, 3);
+  EXPECT_LT(inversion_error(system, rest, 1, 5), kExact);
+  // The derivative of the viscous stress by the displacement is left out: it is of order 1/α of the rest.
+  const Point moving = random_point(beat, system, kLoopStates[1], 0.02, 3);
+  const double slow = inversion_error(system, moving, 10, 5);
+  const double fast = inversion_error(system, moving, 200, 5);
+  EXPECT_GT(slow, 10 * kExact);
+  EXPECT_LT(fast, slow / 5);
+}
+
+TEST(BeatSystem, ResidualIsThatOfItsParts) {
+  const LandBeat beat;
+  BeatSystem system(beat.ventricle, left_heart_loop(*beat.protocol.circulation));
+  Point p = random_point(beat, system, kLoopStates[1], 0, 11);
+  Vector r;
+  ASSERT_TRUE(system.residual(p.t, p.y, p.rate, r));
+  const auto n = system.size() - 3;
+  EXPECT_NEAR(r[n], 0, 1e-9);              // packed with the cavity's own volume
+  EXPECT_NEAR(r[n + 1], p.rate[n], 5e-3);  // closed valves: V̇ alone, but for their leak (1.6e-3 at 40 mmHg)
+  const Vector before = r.head(n);
+  const Vector g = beat.ventricle.cavity->evaluate({Vector(p.y.head(n))}).gradient;
+  p.y[n + 1] += 1;
+  ASSERT_TRUE(system.residual(p.t, p.y, p.rate, r));
+  EXPECT_LT((r.head(n) - before + g).norm(), 1e-9 * g.norm());  // pressure pushes outwards
+  EXPECT_GT(g.norm(), 0);
+  p.y.head(n) *= 1e4;
+  EXPECT_FALSE(system.residual(p.t, p.y, p.rate, r));  // turned inside out
+}
+
+TEST(BeatSystem, ClosedVentricleKeepsItsVolumeThroughABeat) {
+  // Arteries under a pressure that the ventricle does not reach: it contracts and relaxes at one volume.
+  const testing::HeartRun& healthy = testing::shipped_run("healthy_lv");
+  Protocol protocol = healthy.protocol;
+  protocol.circulation->initial_aortic_pressure_mmHg = 1000;
+  protocol.circulation->peripheral_resistance_mmHg_s_per_mL = 10;
+  protocol.time.max_beats = 1;
+  const HeartPath path = run_beats(healthy.ventricle, protocol);
+  ASSERT_TRUE(path.completed) << path.stop_reason;
+  double peak = 0, low = 1e300, high = 0;
+  for (const HeartState& s : path.steps) {
+    peak = std::max(peak, s.pressure_kPa / kPa_per_mmHg);
+    low = std::min(low, s.volume_mm3);
+    high = std::max(high, s.volume_mm3);
+    ASSERT_LT(s.pressure_kPa, s.capacitor_pressure_kPa);
+  }
+  EXPECT_GT(peak, 150);
+  EXPECT_LT(high - low, 0.005 * high);
+}
+
+}  // namespace
+}  // namespace cardiac
