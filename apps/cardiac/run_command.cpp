@@ -21,6 +21,7 @@
 #include "load_mesh.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"
+#include "wall_figure.hpp"
 
 namespace cardiac::app {
 namespace {
@@ -56,6 +57,18 @@ void remove_old_frames(const std::filesystem::path& out) {
   std::filesystem::remove(out / "heart.pvd");
 }
 
+// The drawing; none, and none left from an earlier run, where nothing was computed.
+std::string write_wall_figure(const Ventricle& ventricle, const Protocol& protocol, const HeartPath& path,
+                              const BeatResult& result, const std::filesystem::path& out) {
+  if (path.steps.empty()) {
+    std::filesystem::remove(out / "wall.svg");
+    return "";
+  }
+  const Figure wall = wall_figure(ventricle, protocol, path, result);
+  polyaffine::write_atomically(out / wall.file, wall.svg);
+  return wall.svg;
+}
+
 void write_results(const Ventricle& ventricle, const Protocol& protocol, const HeartPath& path,
                    BeatResult& result, const std::filesystem::path& out,
                    std::chrono::steady_clock::time_point start) {
@@ -65,12 +78,16 @@ void write_results(const Ventricle& ventricle, const Protocol& protocol, const H
   remove_old_frames(out);
   if (protocol.output.mesh_series && !path.outputs.empty())
     write_mesh_series(ventricle, protocol, path, result, out);
-  if (protocol.output.figures) write_figures(result, out);
+  std::string wall;
+  if (protocol.output.figures) {
+    write_figures(result, out);
+    wall = write_wall_figure(ventricle, protocol, path, result, out);
+  }
   result.wall_output_s = seconds_since(output_start);
   result.wall_total_s = seconds_since(start);
   if (protocol.output.tables) write_tables(result, info, out);
   polyaffine::write_atomically(out / "summary.json", summary_text(result, info));
-  if (protocol.output.figures) write_report_page(result, info, out);
+  if (protocol.output.figures) write_report_page(result, info, out, wall);
 }
 
 void print_result(const BeatResult& result, const std::filesystem::path& out) {

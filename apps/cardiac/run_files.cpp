@@ -3,6 +3,8 @@
 #include <cardiac/fibres/helix.hpp>
 #include <polyaffine/core/error.hpp>
 
+#include "vertex_displacement.hpp"
+
 #ifdef CARDIAC_WITH_VTK
 #include <polyaffine/vtk/write.hpp>
 #endif
@@ -15,19 +17,6 @@ using polyaffine::Vec4;
 
 #ifdef CARDIAC_WITH_VTK
 namespace {
-
-// One tet and corner for each vertex of the mesh.
-polyaffine::DisplacementMap vertex_displacement(const Ventricle& ventricle) {
-  const auto& mesh = ventricle.anatomy->mesh;
-  std::vector<int> tet(mesh.num_points());
-  Eigen::Matrix4Xd barycentric = Eigen::Matrix4Xd::Zero(4, mesh.num_points());
-  for (int t = 0; t < mesh.num_tets(); ++t)
-    for (int k = 0; k < 4; ++k) {
-      tet[mesh.tets()(k, t)] = t;
-      barycentric.col(mesh.tets()(k, t)) = Vec4::Unit(k);
-    }
-  return {*ventricle.discretisation.basis, tet, barycentric};
-}
 
 Matrix tet_fibres(const Ventricle& ventricle, const protocol::Fibres& fibres) {
   const HelixAngles angles{fibres.endo_angle_deg, fibres.epi_angle_deg, fibres.sheet_angle_deg};

@@ -5,8 +5,6 @@
 #include <numbers>
 #include <stdexcept>
 
-#include <cardiac/report/axes.hpp>
-#include <cardiac/report/colour_map.hpp>
 #include <cardiac/report/text.hpp>
 
 namespace cardiac {
@@ -37,15 +35,6 @@ std::string sector_path(const BullseyeCell& cell) {
          arc(cell.inner, 1, on_disc(cell.inner, cell.from_deg)) + " Z";
 }
 
-struct ColourRange {
-  Axis axis;
-  ColourScale scale;
-  Rgb colour(double value) const {
-    const double s = (value - axis.low) / (axis.high - axis.low);
-    return scale == ColourScale::diverging ? diverging_colour(2 * s - 1) : sequential_colour(s);
-  }
-};
-
 ColourRange range_of(const Bullseye& bullseye) {
   double low = INFINITY, high = -INFINITY;
   for (const auto& value : bullseye.values) {
@@ -54,9 +43,7 @@ ColourRange range_of(const Bullseye& bullseye) {
     high = std::max(high, *value);
   }
   if (bullseye.scale == ColourScale::sequential) return {round_axis(low, high, 5), bullseye.scale};
-  const double limit = low <= high ? std::max({std::abs(low), std::abs(high), 1e-3}) : 1;
-  const double end = round_axis(0, limit, 3).high;
-  return {tight_axis(-end, end, 6), bullseye.scale};
+  return diverging_range(low, high);
 }
 
 void draw_cells(Svg& svg, const Bullseye& bullseye, const ColourRange& range) {
@@ -91,27 +78,6 @@ void draw_walls(Svg& svg) {
   label({away, 0}, "lateral", 90);
 }
 
-void draw_colour_bar(Svg& svg, const Bullseye& bullseye, const ColourRange& range) {
-  constexpr double kLeft = 70, kTop = 490, kWidth = 320, kHeight = 16;
-  constexpr int kSteps = 160;
-  for (int i = 0; i < kSteps; ++i) {
-    const double value = range.axis.low + (range.axis.high - range.axis.low) * (i + 0.5) / kSteps;
-    // Each stripe reaches under the next one: no hairlines between them.
-    const double width = kWidth / kSteps * (i + 1 < kSteps ? 2 : 1);
-    svg.rect({kLeft + kWidth * i / kSteps, kTop}, width, kHeight,
-             "fill=\"" + range.colour(value).hex() + "\"");
-  }
-  svg.rect({kLeft, kTop}, kWidth, kHeight, "fill=\"none\" stroke=\"#666666\" stroke-width=\"0.8\"");
-  for (const double tick : range.axis.ticks()) {
-    const double x = kLeft + kWidth * (tick - range.axis.low) / (range.axis.high - range.axis.low);
-    svg.line({x, kTop + kHeight}, {x, kTop + kHeight + 4}, "stroke=\"#666666\" stroke-width=\"1\"");
-    svg.text({x, kTop + kHeight + 13}, range.axis.label(tick), {13, "#444444", Anchor::middle});
-  }
-  svg.text({kLeft + kWidth + 26, kTop + kHeight / 2}, bullseye.unit, {14, "#222222"});
-  svg.text({kLeft, kTop + kHeight + 33}, bullseye.low_meaning, {12, "#666666"});
-  svg.text({kLeft + kWidth, kTop + kHeight + 33}, bullseye.high_meaning, {12, "#666666", Anchor::end});
-}
-
 }  // namespace
 
 DrawPoint BullseyeCell::centre() const {
@@ -144,7 +110,7 @@ std::string bullseye_svg(const Bullseye& bullseye) {
   const ColourRange range = range_of(bullseye);
   draw_cells(svg, bullseye, range);
   draw_walls(svg);
-  draw_colour_bar(svg, bullseye, range);
+  draw_colour_bar(svg, {70, 490}, 320, range, {bullseye.unit, bullseye.low_meaning, bullseye.high_meaning});
   return svg.str();
 }
 

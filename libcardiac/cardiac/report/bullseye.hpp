@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include <cardiac/report/colour_bar.hpp>
 #include <cardiac/report/svg.hpp>
 
 namespace cardiac {
@@ -20,11 +21,6 @@ struct BullseyeCell {
 
 /// `segment` 1–17; throws std::out_of_range otherwise.
 BullseyeCell bullseye_cell(int segment);
-
-enum class ColourScale {
-  diverging,  ///< blue below zero, red above, the same range both ways
-  sequential  ///< dark for the least, bright for the most
-};
 
 struct Bullseye {
   std::string title, unit;

@@ -103,11 +103,15 @@ std::string figure_html(const Figure& figure) {
   return "<figure>" + figure.svg + "</figure>\n";
 }
 
-std::string figure_sections(const BeatResult& r) {
+std::string figure_sections(const BeatResult& r, const std::string& wall_svg) {
   std::string curves, eyes;
   for (const Figure& figure : figures(r))
     (figure.file.starts_with("bullseye_") ? eyes : curves) += figure_html(figure);
   std::string html;
+  if (!wall_svg.empty())
+    html += "<h2>The wall " +
+            std::string(r.has_beat ? "at end diastole and end systole" : "before and after") + "</h2>\n" +
+            figure_html({"wall.svg", wall_svg});
   if (!curves.empty())
     html += "<h2>Pressure, volume and strain over " +
             std::string(r.has_beat ? "the last beat" : "the loading") + "</h2>\n<div class=\"pair\">\n" +
@@ -228,7 +232,8 @@ std::string folder_title(const std::filesystem::path& out) {
 
 }  // namespace
 
-std::string report_page(const BeatResult& r, const RunInfo& info, const std::string& title) {
+std::string report_page(const BeatResult& r, const RunInfo& info, const std::string& title,
+                        const std::string& wall_svg) {
   const std::string name = escape_markup(title), version = escape_markup(info.version);
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
@@ -236,14 +241,15 @@ std::string report_page(const BeatResult& r, const RunInfo& info, const std::str
          "</style>\n</head>\n<body>\n<header>\n<h1>" + name + "</h1>\n<p class=\"sub\">" +
          (r.has_beat ? "Heart beat" : "Prescribed loading") + ", " + escape_markup(method_name(r)) +
          ", cardiac " + version + "</p>\n" + alerts(r) + "</header>\n<main>\n" + headline(r) +
-         figure_sections(r) + segment_table(r) + verification_section(r) + plan_section(r) +
+         figure_sections(r, wall_svg) + segment_table(r) + verification_section(r) + plan_section(r) +
          run_section(r, info) + protocol_section(info) + "</main>\n<footer>Written by cardiac " + version +
          ". A model, not a measurement: not for diagnosis.</footer>\n</body>\n</html>\n";
 }
 
-void write_report_page(const BeatResult& result, const RunInfo& info, const std::filesystem::path& out) {
+void write_report_page(const BeatResult& result, const RunInfo& info, const std::filesystem::path& out,
+                       const std::string& wall_svg) {
   polyaffine::make_folder(out);
-  polyaffine::write_atomically(out / "report.html", report_page(result, info, folder_title(out)));
+  polyaffine::write_atomically(out / "report.html", report_page(result, info, folder_title(out), wall_svg));
 }
 
 }  // namespace cardiac

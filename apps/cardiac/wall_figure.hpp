@@ -1,0 +1,13 @@
+#pragma once
+
+#include <cardiac/heart/result.hpp>
+#include <cardiac/report/figures.hpp>
+
+namespace cardiac::app {
+
+/// wall.svg: the septal half of the wall at end diastole and end systole (without a beat: at the start and
+/// the end), coloured by the circumferential strain of its segments. `path` has at least one step.
+Figure wall_figure(const Ventricle& ventricle, const Protocol& protocol, const HeartPath& path,
+                   const BeatResult& result);
+
+}  // namespace cardiac::app
