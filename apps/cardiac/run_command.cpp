@@ -43,6 +43,10 @@ void print_plan(const std::vector<PlanItem>& items) {
   }
 }
 
+void print_warnings(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) std::cerr << "cardiac: warning: " << warning << '\n';
+}
+
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -116,9 +120,7 @@ void run(RunOptions options) {
   if (!options.method.empty()) options.overrides.push_back("reduction.method=" + options.method);
   const Protocol protocol = load_protocol(options.protocol, options.overrides);
   check_mesh_file(protocol);
-  if (!options.quiet) {
-    for (const std::string& warning : protocol.warnings) std::cerr << "cardiac: warning: " << warning << '\n';
-  }
+  if (!options.quiet) print_warnings(protocol.warnings);
   const std::vector<PlanItem> items = plan(protocol, options.verify);
   const auto anatomy = std::make_shared<const Anatomy>(load_anatomy(protocol));
   if (options.dry_run) return print_plan(items);
@@ -146,6 +148,7 @@ void run(RunOptions options) {
   result.wall_setup_s = setup;
   result.wall_solve_s = solve;
   result.plan = items;
+  if (!options.quiet) print_warnings(result.warnings);
   result.warnings.insert(result.warnings.begin(), protocol.warnings.begin(), protocol.warnings.end());
   if (options.verify && path.completed && protocol.reduction.method == protocol::Method::polyaffine)
     result.verification = verify_path(ventricle, protocol, path);

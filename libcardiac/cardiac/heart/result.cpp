@@ -15,6 +15,8 @@ using polyaffine::Vector;
 
 namespace {
 
+// Muscle keeps its volume within some per cent; a reduced wall within tens, at its worst point.
+constexpr double kCrushed = 0.5;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 VentricleSummary summarise(const HeartPath& path, const KeySteps& key, bool has_beat) {
@@ -103,6 +105,10 @@ BeatResult describe_path(const Ventricle& ventricle, const std::vector<ControlNo
   out.completed = path.completed;
   out.stop_reason = path.stop_reason;
   out.warnings = path.warnings;
+  if (path.min_det_F < kCrushed)
+    out.warnings.push_back("the wall was compressed to " + std::to_string(100 * path.min_det_F) +
+                           " % of its volume somewhere (min_det_F): the numbers are not those of muscle; "
+                           "lower the load or raise tissue.bulk_modulus_kPa");
   out.segments = segment_info(ventricle);
   if (path.steps.empty()) return out;
 

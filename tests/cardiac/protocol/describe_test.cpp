@@ -196,7 +196,8 @@ TEST(EditDistance, CountsChanges) {
 TEST(Resolved, ReadsBackAsTheSameProtocol) {
   const std::vector<cardiac::Protocol> protocols = {
       parsed(kPassive), parsed(kBeat),
-      parsed(kBeat, {"boundary.base=spring", "activation.mode=sites", "activation.site_segments=[2]"}),
+      parsed(kBeat, {"boundary.epicardial_stiffness_kPa_per_mm=0.1", "activation.mode=sites",
+                     "activation.site_segments=[2]"}),
       cardiac::load_protocol(PROJECT_DIR "/protocols/infarct_lv.toml", {"reduction.preset=accurate"})};
   for (const auto& protocol : protocols) {
     const json resolved = cardiac::resolved_json(protocol);

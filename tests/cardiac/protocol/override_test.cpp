@@ -15,8 +15,9 @@ TEST(Override, ReplacesAddsAndOpensTables) {
   EXPECT_EQ(protocol.time.heart_rate_bpm, 60);
   EXPECT_EQ(protocol.reduction.method, cardiac::protocol::Method::fem);
   EXPECT_EQ(protocol.anatomy.anterior_direction, (cardiac::protocol::Vector3{1, 0, 0}));
-  EXPECT_EQ(parsed(kPassive, {"mesh={file=\"a.vtu\", length_unit=\"mm\"}", "mesh.file=../b.vtu"}).mesh.file,
-            "../b.vtu");
+  const std::string file = "[mesh]\nfile = \"a.vtu\"\nlength_unit = \"mm\"\n";
+  EXPECT_EQ(parsed(file + kPassive.substr(kPassive.find("[tissue]")), {"mesh.file=../b.vtu"}).mesh.file,
+            "../b.vtu");  // a path needs no quotes
   EXPECT_EQ(parsed(kPassive, {"fibres.endo_angle_deg=70"}).fibres->endo_angle_deg, 70);
   EXPECT_EQ(parsed(kPassive, {"tissue={law=\"mooney_rivlin\", c1_kPa=2}"}).tissue.c1_kPa, 2);
 }
