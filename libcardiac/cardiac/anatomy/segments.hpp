@@ -19,8 +19,9 @@ const std::string& aha_name(int segment);
 /// (Cerqueira et al. 2002).
 int aha_segment(double long_axis_height, double psi);
 
-/// Share of each segment (index 0 for segment 1) in a position: 1 inside, with a smooth border (S-shaped cubic) whose
-/// full width is the fraction `border` of a segment's height and angle, centred on the segment's edge. Sums to one.
+/// Share of each segment (index 0 for segment 1) in a position: 1 inside, with a smooth border (S-shaped
+/// cubic) whose full width is the fraction `border` of a segment's height and angle, centred on the segment's
+/// edge. Sums to one.
 std::array<double, kAhaSegments> segment_shares(double long_axis_height, double psi, double border);
 
 /// Rotational coordinate of the middle of a segment, rad; 0 for segment 17.

@@ -11,8 +11,8 @@ struct HelixAngles {
   double sheet_deg = 0;                 ///< of the sheet from the wall normal, about the fibre
 };
 
-/// Columns f, s, n at a point: with α linear in depth from endo to epi, f = cos α e_c + sin α e_l; s is the radial
-/// direction turned about f by the sheet angle, n = f × s. The local axes are made orthonormal first
+/// Columns f, s, n at a point: with α linear in depth from endo to epi, f = cos α e_c + sin α e_l; s is the
+/// radial direction turned about f by the sheet angle, n = f × s. The local axes are made orthonormal first
 /// (Streeter et al. 1969; Bayer et al. 2012 for the use of Laplace coordinates).
 polyaffine::Mat3 helix_axes(const CoordinateSample& at, const HelixAngles& angles);
 

@@ -50,8 +50,8 @@ PressureSpace block_pressure(const FieldTable& table, double bulk_modulus);
 PressureSpace region_pressure(const FieldTable& table, const std::vector<int>& region, int num_regions,
                               double bulk_modulus);
 
-/// Pressure functions given by their values at all points of the table (functions × points); each block keeps those
-/// that do not vanish in it.
+/// Pressure functions given by their values at all points of the table (functions × points); each block keeps
+/// those that do not vanish in it.
 PressureSpace dense_pressure(const FieldTable& table, const Matrix& values, double bulk_modulus);
 
 }  // namespace polyaffine
