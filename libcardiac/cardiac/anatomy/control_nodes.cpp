@@ -16,13 +16,10 @@ using polyaffine::Vec4;
 
 namespace {
 
-double wrap(double angle) {
-  return angle - 2 * polyaffine::kPi * std::round(angle / (2 * polyaffine::kPi));
-}
-
 // How far, in mm along each coordinate, a point is from mid-wall at (u, ψ).
 Vec3 mismatch(const CoordinateSample& at, double u, double psi) {
-  return {(at.u - u) / at.grad_u.norm(), wrap(at.psi - psi) / at.grad_psi.norm(),
+  return {(at.u - u) / at.grad_u.norm(),
+          std::remainder(at.psi - psi, 2 * polyaffine::kPi) / at.grad_psi.norm(),
           (at.t - 0.5) / at.grad_t.norm()};
 }
 
@@ -42,7 +39,8 @@ ControlNode find(const polyaffine::TetMesh& mesh, const VentricularCoordinates& 
     const CoordinateSample at = coordinates.sample(node.tet, node.barycentric);
     Mat3 gradient;
     gradient << at.grad_u.transpose(), at.grad_psi.transpose(), at.grad_t.transpose();
-    const Vec3 step = gradient.partialPivLu().solve(Vec3(at.u - u, wrap(at.psi - psi), at.t - 0.5));
+    const Vec3 step = gradient.partialPivLu().solve(
+        Vec3(at.u - u, std::remainder(at.psi - psi, 2 * polyaffine::kPi), at.t - 0.5));
     const Vec3 X = polyaffine::position(mesh, node.tet, node.barycentric) - step;
     if (!X.allFinite()) break;
     const polyaffine::MeshPoint place = polyaffine::locate(mesh, X);

@@ -16,10 +16,6 @@ using polyaffine::Vec4;
 
 namespace {
 
-double wrap(double angle) {
-  return angle - 2 * kPi * std::round(angle / (2 * kPi));
-}
-
 // The base frames sit above the six basal segments.
 int ring_size(int ring) {
   return aha_ring_size(std::min(ring, 3));
@@ -123,7 +119,8 @@ FramesAtPoint SegmentFrames::sample(int tet, const Vec4& barycentric) const {
       const Vec3 scale =
           Vec3(coordinates_->arc_length(), layout_.radius[segment_ring], layout_.thickness[segment_ring]) /
           layout_.length;
-      f.xi = scale.cwiseProduct(Vec3(at.u - u0, wrap(at.psi - j * step), at.t - 0.5));
+      f.xi = scale.cwiseProduct(
+          Vec3(at.u - u0, std::remainder(at.psi - j * step, 2 * polyaffine::kPi), at.t - 0.5));
       f.xi_gradient << scale[0] * at.grad_u.transpose(), scale[1] * at.grad_psi.transpose(),
           scale[2] * at.grad_t.transpose();
       out.frames.push_back(f);

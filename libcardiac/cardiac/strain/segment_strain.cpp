@@ -55,8 +55,7 @@ std::vector<double> SegmentGauge::rotation_deg(const Points& x, const Points& x_
   std::vector<double> sum(kAhaSegments, 0.0), volume(kAhaSegments, 0.0);
   for (Eigen::Index q = 0; q < x.cols(); ++q) {
     const double turn = coordinates_.angle(x.col(q)) - coordinates_.angle(x_ed.col(q));
-    sum[segment_[q] - 1] +=
-        weights_[q] * (turn - 2 * polyaffine::kPi * std::round(turn / (2 * polyaffine::kPi)));
+    sum[segment_[q] - 1] += weights_[q] * std::remainder(turn, 2 * polyaffine::kPi);
     volume[segment_[q] - 1] += weights_[q];
   }
   for (int k = 0; k < kAhaSegments; ++k) sum[k] *= 180 / polyaffine::kPi / volume[k];
