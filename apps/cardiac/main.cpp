@@ -10,6 +10,7 @@
 #include "schema_command.hpp"
 #include "segment_command.hpp"
 #include "strain_command.hpp"
+#include "validate_command.hpp"
 
 namespace {
 
@@ -31,6 +32,7 @@ int run_program(int argc, char** argv) {
   cardiac::app::add_report_command(app);
   cardiac::app::add_schema_command(app);
   cardiac::app::add_explain_command(app);
+  cardiac::app::add_validate_command(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <cardiac/anatomy/idealised.hpp>
+#include <polyaffine/mesh/tet_mesh.hpp>
+
+namespace cardiac {
+
+/// One number of a validation case against its reference.
+struct Check {
+  std::string case_name;  ///< "land2"
+  std::string method;     ///< "fem_p2", "polyaffine", with what distinguishes it (mesh, nodes, points)
+  std::string quantity;   ///< with its unit as suffix, "endo_apex_z_mm"
+  std::string unit;       ///< "mm", "1" for none
+  double value = 0;
+  double reference = 0;
+  double low = -std::numeric_limits<double>::infinity();  ///< range accepted, ends included
+  double high = std::numeric_limits<double>::infinity();
+  std::string source;  ///< where reference and range come from
+  double wall_time_s = 0;
+
+  bool passed() const { return low <= value && value <= high; }
+};
+
+/// What a case needs from outside and what it is asked for.
+struct ValidationContext {
+  bool quick = false;         ///< a smaller set that tells whether something broke
+  std::filesystem::path out;  ///< existing folder for figures and tables beside validation.json
+  std::function<polyaffine::TetMesh(const TruncatedEllipsoid& shape, double size_mm)> mesh_ellipsoid;
+  /// Unstructured tets of the box [0, size], the six faces labelled 1 to 6: x = 0, x = size, y = 0, …
+  std::function<polyaffine::TetMesh(const polyaffine::Vec3& size_mm, double edge_mm)> mesh_box;
+  std::function<void(const std::string& what, double fraction)> progress = [](const auto&, double) {};
+};
+
+/// A case computes and returns its checks; it throws only when it cannot be carried out at all.
+struct ValidationCase {
+  std::string name;
+  std::string what;  ///< one line for the help
+  std::function<std::vector<Check>(const ValidationContext&)> run;
+};
+
+/// All cases, in the order of `cardiac validate all`.
+const std::vector<ValidationCase>& validation_cases();
+
+/// Replaces the accepted range of a check, from text "case/quantity=low:high" (applies to every method of
+/// that case and quantity). Throws InputError when the text has another form or nothing has that name.
+void override_range(std::vector<Check>& checks, const std::string& text);
+
+/// The text of validation.json: {"checks": [...], "passed": ...}; a number that is not finite becomes null
+/// and fails.
+std::string validation_text(const std::vector<Check>& checks);
+
+bool all_passed(const std::vector<Check>& checks);
+
+}  // namespace cardiac
