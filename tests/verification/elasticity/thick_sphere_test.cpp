@@ -12,6 +12,7 @@
 #include <polyaffine/solve/equilibrium.hpp>
 
 #include "support/labelled_box.hpp"
+#include "support/sphere_midpoints.hpp"
 
 namespace polyaffine {
 namespace {
@@ -39,22 +40,6 @@ double pressure() {
   return p;
 }
 
-// Exact midpoints on the spheres: mean radius, mean direction.
-EdgeMidpoints sphere_midpoints(const TetMesh& mesh) {
-  EdgeMidpoints out;
-  for (int t = 0; t < mesh.num_tets(); ++t)
-    for (int a = 0; a < 4; ++a)
-      for (int b = 0; b < 4; ++b) {
-        const int i = mesh.tets()(a, t);
-        const int j = mesh.tets()(b, t);
-        if (i >= j) continue;
-        const Vec3 x = mesh.points().col(i);
-        const Vec3 y = mesh.points().col(j);
-        out[{i, j}] = (x.norm() + y.norm()) / 2 * (x + y).normalized();
-      }
-  return out;
-}
-
 struct Solution {
   double inner, outer;  // mean deformed radii, mm
   double spread;        // largest difference from them
@@ -66,7 +51,7 @@ Solution inflate(int cells) {
   const TetMesh mesh =
       testing::mapped(testing::labelled_box(Vec3(kInner, 0, 0), Vec3(kOuter, 1, 1), {cells, cells, cells}),
                       testing::to_sphere);
-  const LagrangeBasis basis(mesh, 2, sphere_midpoints(mesh));
+  const LagrangeBasis basis(mesh, 2, testing::sphere_midpoints(mesh));
   const FieldTable table = deformation_table(basis, basis.wall_points(4));
   using Laws = std::vector<std::shared_ptr<const Law>>;
   EquilibriumProblem problem;
