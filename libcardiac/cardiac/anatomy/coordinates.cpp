@@ -91,7 +91,8 @@ VentricularCoordinates::VentricularCoordinates(const polyaffine::TetMesh& mesh, 
   require_label(mesh, labels.epi, "epi");
   require_label(mesh, labels.base, "base");
   find_axis(mesh, labels, options);
-  space_ = std::make_shared<polyaffine::LagrangeBasis>(mesh, 2, polyaffine::smooth_midpoints(mesh));
+  space_ = std::make_shared<polyaffine::LagrangeBasis>(
+      mesh, 2, options.midpoints ? *options.midpoints : polyaffine::smooth_midpoints(mesh));
   solve_transmural(mesh, labels);
   solve_apicobasal(mesh, labels);
   build_axes();
@@ -202,10 +203,7 @@ CoordinateSample VentricularCoordinates::sample(int tet, const Vec4& barycentric
 }
 
 Vec3 VentricularCoordinates::position(int tet, const Vec4& barycentric) const {
-  Vector N;
-  Eigen::MatrixX4d derivative;
-  space_->shape(barycentric, N, derivative);
-  return space_->nodes()(Eigen::all, space_->elements().col(tet)) * N;
+  return space_->position(tet, barycentric);
 }
 
 double VentricularCoordinates::long_axis_height(const Vec3& X) const {

@@ -17,6 +17,7 @@ struct SurfaceLabels {
 struct AnatomyOptions {
   std::optional<polyaffine::Vec3> long_axis;  ///< apex to base; absent: the mean outward normal of the base
   polyaffine::Vec3 anterior = {0, 1, 0};      ///< from the axis to the anterior wall
+  std::optional<polyaffine::EdgeMidpoints> midpoints{};  ///< of boundary edges; absent: smooth_midpoints
 };
 
 /// Ventricular coordinates and local axes at one point of the wall.

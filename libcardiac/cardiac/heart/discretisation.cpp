@@ -17,13 +17,15 @@ polyaffine::SurfacePoints turned(polyaffine::SurfacePoints points) {
 
 }  // namespace
 
-Anatomy build_anatomy(polyaffine::TetMesh mesh, const Protocol& protocol) {
+Anatomy build_anatomy(polyaffine::TetMesh mesh, const Protocol& protocol, const ExactGeometry& exact) {
   Anatomy out;
   out.mesh = std::move(mesh);
   out.labels = {protocol.mesh.endo_label, protocol.mesh.epi_label, protocol.mesh.base_label};
   AnatomyOptions options;
   if (protocol.anatomy.long_axis) options.long_axis = Vec3(protocol.anatomy.long_axis->data());
   options.anterior = Vec3(protocol.anatomy.anterior_direction.data());
+  options.midpoints = exact.midpoints;
+  out.fibres = exact.fibres;
   out.coordinates = std::make_shared<VentricularCoordinates>(out.mesh, out.labels, options);
   out.segment = segment_tets(out.mesh, *out.coordinates);
   return out;
@@ -41,9 +43,9 @@ void add_surface_points(const Anatomy& anatomy, const Protocol& protocol, const 
 Discretisation full_discretisation(const Anatomy& anatomy, const Protocol& protocol) {
   Discretisation out;
   const int order = protocol.reduction.element_order;
-  const auto basis = std::make_shared<LagrangeBasis>(
-      anatomy.mesh, order,
-      order == 2 ? polyaffine::smooth_midpoints(anatomy.mesh) : polyaffine::EdgeMidpoints());
+  const std::shared_ptr<const LagrangeBasis> basis =
+      order == 2 ? std::shared_ptr<const LagrangeBasis>(anatomy.coordinates, &anatomy.coordinates->space())
+                 : std::make_shared<LagrangeBasis>(anatomy.mesh, order);
   out.basis = basis;
   out.points = basis->wall_points(order == 1 ? 1 : 3);
   out.sparse = true;

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <cardiac/anatomy/segment_frames.hpp>
 #include <cardiac/protocol/protocol.hpp>
+#include <cardiac/tissue/fibre_axes.hpp>
 #include <polyaffine/energy/pressure_space.hpp>
 #include <polyaffine/kinematics/basis.hpp>
 #include <polyaffine/solve/linear_system.hpp>
@@ -17,10 +20,18 @@ struct Anatomy {
   SurfaceLabels labels;
   std::shared_ptr<const VentricularCoordinates> coordinates;
   std::vector<int> segment;  ///< AHA segment of each tet
+  std::function<FibreAxes(const polyaffine::Points& X)>
+      fibres;  ///< axes at positions (mm); empty: the protocol's rule in the ventricular coordinates
+};
+
+/// What is known of a wall beyond its mesh.
+struct ExactGeometry {
+  std::optional<polyaffine::EdgeMidpoints> midpoints;            ///< absent: smooth_midpoints of the mesh
+  std::function<FibreAxes(const polyaffine::Points& X)> fibres;  ///< see Anatomy
 };
 
 /// Throws InputError as the mesh, its coordinates and its segments do.
-Anatomy build_anatomy(polyaffine::TetMesh mesh, const Protocol& protocol);
+Anatomy build_anatomy(polyaffine::TetMesh mesh, const Protocol& protocol, const ExactGeometry& exact = {});
 
 /// Shape functions with their integration points: a full-order or a reduced model of the same wall.
 struct Discretisation {

@@ -92,9 +92,13 @@ std::shared_ptr<const polyaffine::FieldEnergy> build_wall(const Anatomy& anatomy
   FibreAxes fibres;
   if (protocol.fibres) {
     ++built["fibres"];
-    fibres = helix_fibres(
-        *anatomy.coordinates, discretisation.points.tet, discretisation.points.barycentric,
-        {protocol.fibres->endo_angle_deg, protocol.fibres->epi_angle_deg, protocol.fibres->sheet_angle_deg});
+    const auto& points = discretisation.points;
+    if (anatomy.fibres)
+      fibres = anatomy.fibres(anatomy.coordinates->space().positions(points.tet, points.barycentric));
+    else
+      fibres = helix_fibres(*anatomy.coordinates, points.tet, points.barycentric,
+                            {protocol.fibres->endo_angle_deg, protocol.fibres->epi_angle_deg,
+                             protocol.fibres->sheet_angle_deg});
   }
   const protocol::Tissue& tissue = protocol.tissue;
   std::vector<LawPointer> laws{passive_law(tissue, fibres, factors.stiffness)};

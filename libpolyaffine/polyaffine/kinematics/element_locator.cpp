@@ -22,16 +22,6 @@ std::string text(const Vec3& x) {
   return out.str();
 }
 
-Vec3 map(const LagrangeBasis& elements, int element, const Vec4& lambda) {
-  Vector N;
-  Eigen::MatrixX4d derivative;
-  elements.shape(lambda, N, derivative);
-  Vec3 x = Vec3::Zero();
-  for (Eigen::Index k = 0; k < N.size(); ++k)
-    x += N[k] * elements.nodes().col(elements.elements()(k, element));
-  return x;
-}
-
 }  // namespace
 
 ElementLocator::ElementLocator(const LagrangeBasis& elements) : elements_(elements) {
@@ -76,7 +66,7 @@ MeshPoint ElementLocator::invert(int element, const Vec3& x) const {
   for (int i = 0; i < 30; ++i) {
     const Vec3 step = elements_.jacobian(element, out.barycentric)
                           .partialPivLu()
-                          .solve(x - map(elements_, element, out.barycentric));
+                          .solve(x - elements_.position(element, out.barycentric));
     out.barycentric.tail<3>() += step;
     out.barycentric[0] -= step.sum();
     if (!(out.barycentric.cwiseAbs().maxCoeff() < 10)) return out;
@@ -85,7 +75,7 @@ MeshPoint ElementLocator::invert(int element, const Vec3& x) const {
     if (out.barycentric.minCoeff() < kInside) {
       Vec4 cut = out.barycentric.cwiseMax(0);
       cut /= cut.sum();
-      out.distance = (x - map(elements_, element, cut)).norm();
+      out.distance = (x - elements_.position(element, cut)).norm();
     }
     return out;
   }

@@ -101,6 +101,19 @@ Mat3 jacobian_of(const Points& nodes, const Eigen::MatrixXi& elements, int tet,
 
 }  // namespace
 
+Vec3 LagrangeBasis::position(int tet, const Vec4& barycentric) const {
+  Vector N;
+  Eigen::MatrixX4d derivative;
+  shape(barycentric, N, derivative);
+  return nodes_(Eigen::all, elements_.col(tet)) * N;
+}
+
+Points LagrangeBasis::positions(const std::vector<int>& tet, const Eigen::Matrix4Xd& barycentric) const {
+  Points out(3, barycentric.cols());
+  for (Eigen::Index q = 0; q < out.cols(); ++q) out.col(q) = position(tet[q], barycentric.col(q));
+  return out;
+}
+
 Mat3 LagrangeBasis::jacobian(int tet, const Vec4& barycentric) const {
   Vector N;
   Eigen::MatrixX4d derivative;

@@ -27,6 +27,9 @@ class LagrangeBasis : public Basis {
   Eigen::Matrix4Xd node_barycentric() const;
   /// Values of the element's shape functions and their derivatives by the barycentric coordinates (n × 4).
   void shape(const Vec4& barycentric, Vector& N, Eigen::MatrixX4d& derivative) const;
+  /// X = Σ N_a x_a, mm.
+  Vec3 position(int tet, const Vec4& barycentric) const;
+  Points positions(const std::vector<int>& tet, const Eigen::Matrix4Xd& barycentric) const;
   /// dX/dξ with ξ the last three barycentric coordinates; its determinant is six times the local volume.
   Mat3 jacobian(int tet, const Vec4& barycentric) const;
   /// Value of a scalar field given at the nodes.

@@ -18,12 +18,6 @@ const TetMesh& shell() {
   return mesh;
 }
 
-Vec3 position(const LagrangeBasis& elements, const MeshPoint& at) {
-  Vec3 x;
-  for (int k = 0; k < 3; ++k) x[k] = elements.interpolate(elements.nodes().row(k), at.tet, at.barycentric);
-  return x;
-}
-
 TEST(ElementLocator, FindsTheIntegrationPointsOfCurvedElements) {
   for (const int order : {1, 2}) {
     const LagrangeBasis elements(shell(), order, testing::sphere_midpoints(shell()));
@@ -31,7 +25,7 @@ TEST(ElementLocator, FindsTheIntegrationPointsOfCurvedElements) {
     const WallPoints points = elements.wall_points(3);
     for (std::size_t q = 0; q < points.tet.size(); ++q) {
       const Vec4 own = points.barycentric.col(static_cast<Eigen::Index>(q));
-      const MeshPoint found = locator.locate(position(elements, {points.tet[q], own}));
+      const MeshPoint found = locator.locate(elements.position(points.tet[q], own));
       EXPECT_EQ(found.tet, points.tet[q]);
       EXPECT_LT((found.barycentric - own).cwiseAbs().maxCoeff(), 1e-11);
       EXPECT_EQ(found.distance, 0);
@@ -52,7 +46,7 @@ TEST(ElementLocator, HoldsPointsBetweenChordAndArc) {
   const MeshPoint beyond = ElementLocator(straight).locate(x);
   EXPECT_NEAR(beyond.distance, 0.95 * sagitta, 0.2 * sagitta);
   EXPECT_LT(beyond.barycentric.minCoeff(), 0);
-  EXPECT_LT((position(straight, beyond) - x).norm(), 1e-12);
+  EXPECT_LT((straight.position(beyond.tet, beyond.barycentric) - x).norm(), 1e-12);
 }
 
 TEST(ElementLocator, ReachesPointsFarOutsideAndRefusesNonsense) {
