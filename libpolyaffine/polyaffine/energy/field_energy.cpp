@@ -190,6 +190,10 @@ void FieldEnergy::add_tangent(const Motion& motion, LinearSystem& system, double
       [&](int k, int slot) {
         Matrix P, A;
         evaluate_laws(kin, rate, used, k, nullptr, P, &A, rate_factor);
+        if (!pressure_ && A.isZero(0)) {  // a dead load
+          K[slot].resize(0, 0);
+          return;
+        }
         block_stiffness(table_.blocks[k], A.data(), K[slot]);
         if (!pressure_) return;
         rows[slot] = dilatation_rows(kin, k);
@@ -198,6 +202,7 @@ void FieldEnergy::add_tangent(const Motion& motion, LinearSystem& system, double
               pressure_->bulk_modulus * rows[slot].transpose() * (inverse_mass_.block(k) * rows[slot]);
       },
       [&](int k, int slot) {
+        if (K[slot].size() == 0) return;
         const std::vector<int> functions = table_.blocks[k].functions();
         system.add(functions, scale * K[slot]);
         if (!global) return;
