@@ -143,19 +143,26 @@ Ventricle build_ventricle(std::shared_ptr<const Anatomy> anatomy, const Protocol
 
 polyaffine::EquilibriumProblem loaded_ventricle(const Ventricle& ventricle, double pressure_kPa,
                                                 const Vector& tension) {
+  return loaded_ventricle(ventricle, {0, Vector::Zero(tension.size())}, {pressure_kPa, tension});
+}
+
+polyaffine::EquilibriumProblem loaded_ventricle(const Ventricle& ventricle, const WallLoad& from,
+                                                const WallLoad& to) {
   polyaffine::EquilibriumProblem problem;
   polyaffine::PotentialTerm wall{ventricle.wall};
-  if (tension.size() > 0) {
-    const auto scaled = std::make_shared<Vector>(tension.size());
-    wall.state = [&tension, scaled](double load) {
-      *scaled = load * tension;
-      return polyaffine::PointState(scaled->data(), scaled->size());
+  if (to.tension.size() > 0) {
+    const auto now = std::make_shared<Vector>(to.tension.size());
+    wall.state = [begin = from.tension, end = to.tension, now](double load) {
+      *now = (1 - load) * begin + load * end;
+      return polyaffine::PointState(now->data(), now->size());
     };
   }
   problem.terms.push_back(std::move(wall));
-  if (ventricle.cavity && pressure_kPa != 0) {
+  if (ventricle.cavity && (from.pressure_kPa != 0 || to.pressure_kPa != 0)) {
     polyaffine::PotentialTerm cavity{ventricle.cavity};
-    cavity.scale = [pressure_kPa](double load) { return -load * pressure_kPa; };
+    cavity.scale = [p0 = from.pressure_kPa, p1 = to.pressure_kPa](double load) {
+      return -(1 - load) * p0 - load * p1;
+    };
     cavity.wall = false;
     problem.terms.push_back(std::move(cavity));
   }

@@ -40,8 +40,18 @@ struct Ventricle {
 Ventricle build_ventricle(std::shared_ptr<const Anatomy> anatomy, const Protocol& protocol,
                           protocol::Method method);
 
-/// The equilibrium under a cavity pressure and a tension of every point, both ramped with the load parameter.
-/// `pressure_kPa` and `tension` belong to λ = 1; the tension must outlive the problem.
+/// What loads a wall: cavity pressure and active tension of every point (empty: none), kPa.
+struct WallLoad {
+  double pressure_kPa = 0;
+  polyaffine::Vector tension{};
+};
+
+/// The equilibrium on the straight way between two loads: `from` at load parameter 0, `to` at 1. Tensions are
+/// both empty or both of all points.
+polyaffine::EquilibriumProblem loaded_ventricle(const Ventricle& ventricle, const WallLoad& from,
+                                                const WallLoad& to);
+
+/// Both pressure and tension ramped up from zero.
 polyaffine::EquilibriumProblem loaded_ventricle(const Ventricle& ventricle, double pressure_kPa,
                                                 const polyaffine::Vector& tension);
 

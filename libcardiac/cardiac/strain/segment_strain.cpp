@@ -51,6 +51,18 @@ std::vector<SegmentStrain> SegmentGauge::strain(const Matrix& F, const Matrix& F
   return mean;
 }
 
+std::vector<Mat3> SegmentGauge::green_lagrange(const Matrix& F) const {
+  std::vector<Mat3> mean(kAhaSegments, Mat3::Zero());
+  std::vector<double> volume(kAhaSegments, 0.0);
+  for (Eigen::Index q = 0; q < F.cols(); ++q) {
+    const Mat3 in_axes = F.col(q).reshaped(3, 3) * axes_[q];
+    mean[segment_[q] - 1] += weights_[q] / 2 * (in_axes.transpose() * in_axes - Mat3::Identity());
+    volume[segment_[q] - 1] += weights_[q];
+  }
+  for (int k = 0; k < kAhaSegments; ++k) mean[k] /= volume[k];
+  return mean;
+}
+
 std::vector<double> SegmentGauge::rotation_deg(const Points& x, const Points& x_ed) const {
   std::vector<double> sum(kAhaSegments, 0.0), volume(kAhaSegments, 0.0);
   for (Eigen::Index q = 0; q < x.cols(); ++q) {

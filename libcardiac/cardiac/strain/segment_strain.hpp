@@ -18,6 +18,10 @@ class SegmentGauge {
   /// axis, the shears ½ C_ab, and det F_rel; means weighted by volume. One a segment, index 0 for segment 1.
   std::vector<SegmentStrain> strain(const polyaffine::Matrix& F, const polyaffine::Matrix& F_ed) const;
 
+  /// Mean over each segment of the Green–Lagrange strain ½(FᵀF − I) against the reference configuration, in
+  /// the local axes (longitudinal, circumferential, radial), weighted by volume.
+  std::vector<polyaffine::Mat3> green_lagrange(const polyaffine::Matrix& F) const;
+
   /// Mean rotation about the long axis of each segment's points, from positions x_ed to x (3 × points),
   /// degrees, counter-clockwise seen from the apex.
   std::vector<double> rotation_deg(const polyaffine::Points& x, const polyaffine::Points& x_ed) const;

@@ -1,0 +1,92 @@
+#include "bench_command.hpp"
+
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <cardiac/bench/bench.hpp>
+#include <cardiac/bench/bench_table.hpp>
+#include <polyaffine/core/atomic_file.hpp>
+
+#include "ellipsoid_mesh.hpp"
+#include "progress.hpp"
+
+namespace cardiac::app {
+namespace {
+
+struct BenchOptions {
+  std::string scene;
+  std::filesystem::path out = "results/bench";
+  std::vector<std::string> settings;
+  bool quick = false, quiet = false;
+};
+
+void print_header() {
+  std::cout
+      << "scene             method      preset    cells/gauss   tets nodes  dofs points  setup s  solve s "
+         "  u %    V %   strain   apex\n";
+}
+
+void print_row(const BenchRow& row) {
+  std::cout << std::left << std::setw(18) << row.scene << std::setw(12) << row.method << std::setw(10)
+            << row.preset << std::setw(12) << row.integration << std::right << std::setw(6) << row.mesh_tets
+            << std::setw(6) << row.control_nodes << std::setw(6) << row.dofs << std::setw(7)
+            << row.integration_points << std::fixed << std::setprecision(2) << std::setw(9) << row.setup_s
+            << std::setprecision(4) << std::setw(9) << row.solve_s;
+  if (row.converged)
+    std::cout << std::setprecision(2) << std::setw(7) << row.errors.displacement_percent << std::setw(7)
+              << row.errors.volume_percent << std::setprecision(4) << std::setw(8)
+              << row.errors.max_segment_strain << std::setw(8) << row.errors.apex_strain;
+  else
+    std::cout << "  not converged";
+  std::cout << std::endl;
+}
+
+void bench(const BenchOptions& options) {
+  polyaffine::make_folder(options.out);
+  BenchContext context;
+  context.quick = options.quick;
+  context.mesh_ellipsoid = mesh_truncated_ellipsoid;
+  context.settings = options.settings;
+  if (!options.quiet) {
+    print_header();
+    context.on_row = print_row;
+  }
+  std::vector<SceneResult> results;
+  for (const BenchScene& scene : bench_scenes()) {
+    if (!options.scene.empty() && options.scene != scene.name) continue;
+    ProgressLine line(options.quiet);
+    context.progress = [&](const std::string& what, double fraction) { line(what, fraction); };
+    results.push_back(run_scene(scene, context));
+    polyaffine::write_atomically(options.out / "bench.csv", bench_csv(results));
+    polyaffine::write_atomically(options.out / "bench.md", bench_markdown(results));
+  }
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& app) {
+  auto* command = app.add_subcommand("bench", "Error against run time of reduced and full-order models.");
+  auto options = std::make_shared<BenchOptions>();
+  std::vector<std::string> names;
+  std::string what = "one scene only";
+  for (const BenchScene& scene : bench_scenes()) {
+    names.push_back(scene.name);
+    what += "; " + scene.name + ": " + scene.title;
+  }
+  command->add_option("SCENE", options->scene, what)->check(CLI::IsMember(names));
+  command->add_option("--out", options->out, "folder of bench.csv, bench.md and bench.svg")
+      ->type_name("DIR")
+      ->capture_default_str();
+  command->add_option("--set", options->settings, "a protocol key of the reduced models")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command->add_flag("--quick", options->quick, "small meshes, fewer models");
+  command->add_flag("--quiet", options->quiet, "no progress, no table");
+  command->callback([options] { bench(*options); });
+}
+
+}  // namespace cardiac::app

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <cardiac/bench/errors.hpp>
+
+namespace cardiac {
+
+/// One model of one scene: what it is, what it took and how wrong it is.
+struct BenchRow {
+  std::string scene, method;        ///< method: fem_p1, fem_p2 or polyaffine
+  std::string preset, integration;  ///< empty for full order
+  int mesh_tets = 0, control_nodes = 0, dofs = 0, integration_points = 0;
+  double setup_s = 0;       ///< coordinates, segments, functions, integration points, law, matrix pattern
+  double solve_s = 0;       ///< the whole path of loads from zero; median of some where one is short
+  double cavity_ratio = 0;  ///< deformed over reference volume
+  ModelErrors errors;
+  double speedup_over_fem = std::numeric_limits<double>::quiet_NaN();
+  int load_steps = 0, newton_iterations = 0;
+  bool converged = false;  ///< if not: times and iterations up to the failure, no errors
+};
+
+/// All rows of a scene and the solution they are compared with.
+struct SceneResult {
+  std::string scene, title, reference;
+  std::vector<BenchRow> rows;
+};
+
+struct BenchContext {
+  bool quick = false;  ///< smaller meshes, fewer models
+  std::function<polyaffine::TetMesh(const TruncatedEllipsoid& shape, double size_mm)> mesh_ellipsoid;
+  std::vector<std::string> settings;  ///< key=value for the reduced models, on top of everything else
+  std::function<void(const std::string& what, double fraction)> progress = [](const auto&, double) {};
+  std::function<void(const BenchRow&)> on_row = [](const auto&) {};
+};
+
+/// Solves a scene by full-order models on several meshes, the finest one being the reference, and by reduced
+/// ones.
+SceneResult run_scene(const BenchScene& scene, const BenchContext& context);
+
+}  // namespace cardiac

@@ -1,0 +1,73 @@
+#include <cardiac/bench/bench_table.hpp>
+
+#include <limits>
+
+#include <cardiac/report/text.hpp>
+
+namespace cardiac {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+std::string csv_row(const BenchRow& row) {
+  const auto known = [&](double value) { return row.converged ? value : kNone; };
+  std::string out = row.scene + "," + row.method + "," + row.preset;
+  for (const int count : {row.mesh_tets, row.control_nodes, row.dofs, row.integration_points})
+    out += "," + std::to_string(count);
+  for (const double value :
+       {row.setup_s, row.solve_s, known(row.cavity_ratio), known(row.errors.displacement_percent),
+        known(row.errors.volume_percent), known(row.errors.max_segment_strain), known(row.errors.apex_strain),
+        row.speedup_over_fem})
+    out += "," + number_text(value);
+  out += "," + row.integration + "," + number_text(known(row.errors.compliance_ratio)) + "," +
+         std::to_string(row.load_steps) + "," + std::to_string(row.newton_iterations) + "," +
+         (row.converged ? "yes" : "no");
+  return out + "\n";
+}
+
+std::string cell(double value, int decimals) {
+  return " " + display_text(value, decimals) + " |";
+}
+
+std::string markdown_row(const BenchRow& row) {
+  const auto known = [&](double value) { return row.converged ? value : kNone; };
+  std::string out = "| " + row.method + " | " + row.preset + " | " + row.integration + " |";
+  for (const int count : {row.mesh_tets, row.control_nodes, row.dofs, row.integration_points})
+    out += " " + std::to_string(count) + " |";
+  return out + cell(row.setup_s, 2) + cell(row.solve_s, 3) + cell(known(row.errors.displacement_percent), 2) +
+         cell(known(row.errors.volume_percent), 2) + cell(known(row.errors.max_segment_strain), 4) +
+         cell(known(row.errors.apex_strain), 4) + cell(row.speedup_over_fem, 1) + "\n";
+}
+
+}  // namespace
+
+std::string bench_csv(const std::vector<SceneResult>& results) {
+  std::string out =
+      "# One thread; times are wall time of this run. setup_s: from the mesh to the model ready to solve; "
+      "solve_s: all loads from zero, median of repeated short solves.\n"
+      "# Errors against the finest full-order solution of the scene, at its integration points: displacement "
+      "relative L2, cavity volume, Green-Lagrange normal strains averaged over segments (1-16, apex 17).\n";
+  for (const SceneResult& r : results) out += "# reference of " + r.scene + ": " + r.reference + "\n";
+  out +=
+      "scene,method,preset,mesh_tets,control_nodes,dofs,integration_points,setup_s,solve_s,cavity_ratio,"
+      "displacement_error_percent,volume_error_percent,max_segment_strain_error,apex_strain_error,"
+      "speedup_over_fem,integration,compliance_ratio,load_steps,newton_iterations,converged\n";
+  for (const SceneResult& r : results)
+    for (const BenchRow& row : r.rows) out += csv_row(row);
+  return out;
+}
+
+std::string bench_markdown(const std::vector<SceneResult>& results) {
+  std::string out;
+  for (const SceneResult& r : results) {
+    out += "### " + r.title + " (`" + r.scene + "`)\n\nErrors against " + r.reference +
+           ".\n\n| method | preset | integration | tets | nodes | unknowns | points | setup s | solve s | "
+           "displacement % | volume % | segment strain | apex strain | × faster than P2 |\n"
+           "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+    for (const BenchRow& row : r.rows) out += markdown_row(row);
+    out += "\n";
+  }
+  return out;
+}
+
+}  // namespace cardiac

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <cardiac/bench/bench.hpp>
+
+namespace cardiac {
+
+/// bench.csv: comment lines (#) that say what was measured and against what, the header row, a row a model.
+/// Numbers as number_text; an empty field where one does not exist.
+std::string bench_csv(const std::vector<SceneResult>& results);
+
+/// The same as Markdown tables, one a scene, for people.
+std::string bench_markdown(const std::vector<SceneResult>& results);
+
+}  // namespace cardiac

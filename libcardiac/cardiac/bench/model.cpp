@@ -1,0 +1,80 @@
+#include <cardiac/bench/model.hpp>
+
+#include <chrono>
+
+#include <cardiac/fibres/ellipsoid_fibres.hpp>
+
+namespace cardiac {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+WallLoad wall_load(const SceneLoad& load, const Points& X) {
+  WallLoad out{load.pressure_kPa};
+  if (!load.tension_kPa) return out;
+  out.tension.resize(X.cols());
+  for (Eigen::Index q = 0; q < X.cols(); ++q) out.tension[q] = load.tension_kPa(X.col(q));
+  return out;
+}
+
+}  // namespace
+
+BenchModel::BenchModel(const BenchScene& scene, const BenchMesh& mesh,
+                       const std::vector<std::string>& settings)
+    : scene_(scene) {
+  const auto start = Clock::now();
+  const Protocol protocol = parse_protocol(scene.protocol, "scene " + scene.name, settings);
+  ExactGeometry exact;
+  exact.midpoints = mesh.midpoints;
+  if (protocol.fibres)
+    exact.fibres = [shape = scene.shape,
+                    angles = HelixAngles{protocol.fibres->endo_angle_deg, protocol.fibres->epi_angle_deg,
+                                         protocol.fibres->sheet_angle_deg}](const Points& X) {
+      return ellipsoid_fibres(shape, angles, X);
+    };
+  const auto anatomy = std::make_shared<const Anatomy>(build_anatomy(mesh.mesh, protocol, exact));
+  ventricle_ = build_ventricle(anatomy, protocol, protocol.reduction.method);
+  const auto& points = ventricle_.discretisation.points;
+  const Points X = anatomy->coordinates->space().positions(points.tet, points.barycentric);
+  for (const SceneLoad& load : scene.path) path_.push_back(wall_load(load, X));
+  system_ = ventricle_.make_system();
+  setup_s_ = seconds_since(start);
+}
+
+const polyaffine::LagrangeBasis& BenchModel::elements() const {
+  const auto* own = dynamic_cast<const polyaffine::LagrangeBasis*>(ventricle_.discretisation.basis.get());
+  return own ? *own : anatomy().coordinates->space();
+}
+
+int BenchModel::control_nodes() const {
+  return reduced() ? kAhaSegments : 0;
+}
+
+double BenchModel::cavity_at_rest() const {
+  return ventricle_.cavity_volume(polyaffine::Vector::Zero(ventricle_.num_coefficients()));
+}
+
+BenchModel::Solution BenchModel::solve() const {
+  const auto start = Clock::now();
+  Solution out;
+  out.c = polyaffine::Vector::Zero(ventricle_.num_coefficients());
+  WallLoad from{0, polyaffine::Vector::Zero(path_.front().tension.size())};
+  for (const WallLoad& to : path_) {
+    const auto problem = loaded_ventricle(ventricle_, from, to);
+    const auto report = polyaffine::load_stepping(problem, *system_, out.c);
+    out.reached += report.reached;
+    out.load_steps += report.steps;
+    out.newton_iterations += report.iterations;
+    out.converged = report.converged();
+    if (!out.converged) break;
+    from = to;
+  }
+  out.solve_s = seconds_since(start);
+  return out;
+}
+
+}  // namespace cardiac
