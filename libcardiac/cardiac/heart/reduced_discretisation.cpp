@@ -46,26 +46,22 @@ std::vector<std::vector<Monomial>> independent(int num_frames, const std::vector
   return out;
 }
 
-// One block a segment instead of one a face: few functions are seen by many faces.
-polyaffine::SurfacePoints by_segment(const polyaffine::SurfacePoints& points,
-                                     const std::vector<int>& segment) {
+// One block a cell instead of one a face: few functions are seen by many faces.
+polyaffine::SurfacePoints by_cell(const polyaffine::SurfacePoints& points, const std::vector<int>& cell) {
   std::vector<int> order(points.tet.size());
   for (std::size_t q = 0; q < order.size(); ++q) order[q] = static_cast<int>(q);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return segment[points.tet[a]] < segment[points.tet[b]]; });
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return cell[a] < cell[b]; });
   polyaffine::SurfacePoints out;
   out.barycentric = points.barycentric(Eigen::all, order);
   out.weights = points.weights(order);
   out.X = points.X(Eigen::all, order);
   out.X_xi = points.X_xi(Eigen::all, order);
   out.X_eta = points.X_eta(Eigen::all, order);
-  for (const int q : order) {
-    const int t = points.tet[q];
-    if (out.starts.empty() || segment[t] != segment[out.tet.back()])
-      out.starts.push_back(static_cast<int>(out.tet.size()));
-    out.tet.push_back(t);
+  for (std::size_t q = 0; q < order.size(); ++q) {
+    if (q == 0 || cell[order[q]] != cell[order[q - 1]]) out.starts.push_back(static_cast<int>(q));
+    out.tet.push_back(points.tet[order[q]]);
   }
-  out.starts.push_back(static_cast<int>(out.tet.size()));
+  out.starts.push_back(static_cast<int>(order.size()));
   return out;
 }
 
@@ -110,6 +106,19 @@ Cells segment_cells(const Anatomy& anatomy, const WallPoints& candidates) {
   for (Eigen::Index q = 0; q < out.place.cols(); ++q) {
     const int k = out.cell[q];
     out.place.col(q) = (out.place.col(q) - low.col(k)).cwiseQuotient(high.col(k) - low.col(k));
+  }
+  return out;
+}
+
+// Tent cell, or else segment, of each point of a surface.
+std::vector<int> surface_cells(const Anatomy& anatomy, const Discretisation& discretisation,
+                               const polyaffine::SurfacePoints& points) {
+  std::vector<int> out;
+  for (std::size_t q = 0; q < points.tet.size(); ++q) {
+    const CoordinateSample at =
+        anatomy.coordinates->sample(points.tet[q], points.barycentric.col(static_cast<Eigen::Index>(q)));
+    out.push_back(discretisation.frames ? discretisation.frames->cell(at.u, at.psi).index
+                                        : anatomy.segment[points.tet[q]]);
   }
   return out;
 }
@@ -181,7 +190,7 @@ Discretisation reduced_discretisation(const Anatomy& anatomy, const Protocol& pr
                    : polyaffine::compress_cells(candidates, cells.cell, cells.place, kCellDegree);
   add_surface_points(anatomy, protocol, geometry, 1, out);
   for (auto* points : {&out.cavity_points, &out.epicardium_points})
-    if (!points->tet.empty()) *points = by_segment(*points, anatomy.segment);
+    if (!points->tet.empty()) *points = by_cell(*points, surface_cells(anatomy, out, *points));
   return out;
 }
 

@@ -16,24 +16,21 @@ ActiveStress::ActiveStress(FibreAxes axes, double cross_fibre_fraction)
   require_orthonormal(axes_);
 }
 
-void ActiveStress::evaluate(int first, int count, const double* F, PointState tension_kPa, double* W,
-                            double* P, double* A) const {
-  if (tension_kPa.size() < static_cast<std::size_t>(first) + static_cast<std::size_t>(count))
+void ActiveStress::respond(PackPoints points, const Mat3Pack& f, PointState tension_kPa, bool tangent,
+                           PackResponse& r) const {
+  if (tension_kPa.size() < static_cast<std::size_t>(points.point) + static_cast<std::size_t>(points.lanes))
     throw ComputationError("active stress: the state holds fewer tensions than there are points");
-  evaluate_packed(first, count, F, W, P, A,
-                  [&](PackPoints points, const Mat3Pack& f, bool tangent, PackResponse& r) {
-                    const Mat3Pack R = pack_axes(axes_, points);
-                    const Pack tension = gather(tension_kPa.data() + points.point, 1, points.lanes);
-                    const Pack cross = cross_fibre_fraction_ * tension;
-                    SymPack S;
-                    for (int a = 0; a < 6; ++a) {
-                      const int i = kVoigtRow[a], j = kVoigtColumn[a];
-                      S.v[a] = (tension - cross) * R(i, 0) * R(j, 0);
-                      if (i == j) S.v[a] += cross;
-                    }
-                    const Pack energy = 0.5 * (contract(right_cauchy_green(f), S) - tension - 2 * cross);
-                    add_constant_stress(f, energy, S, tangent, r);
-                  });
+  const Mat3Pack R = pack_axes(axes_, points);
+  const Pack tension = gather(tension_kPa.data() + points.point, 1, points.lanes);
+  const Pack cross = cross_fibre_fraction_ * tension;
+  SymPack S;
+  for (int a = 0; a < 6; ++a) {
+    const int i = kVoigtRow[a], j = kVoigtColumn[a];
+    S.v[a] = (tension - cross) * R(i, 0) * R(j, 0);
+    if (i == j) S.v[a] += cross;
+  }
+  const Pack energy = 0.5 * (contract(right_cauchy_green(f), S) - tension - 2 * cross);
+  add_constant_stress(f, energy, S, tangent, r);
 }
 
 }  // namespace cardiac

@@ -14,9 +14,9 @@ class ActiveStress : public polyaffine::Law {
   /// `cross_fibre_fraction` n_c, dimensionless, 0 to 1. Throws InputError, also for axes that are not
   /// orthonormal.
   explicit ActiveStress(FibreAxes axes, double cross_fibre_fraction = 0);
-  /// Throws ComputationError when `state` has no tension for one of the points.
-  void evaluate(int first, int count, const double* F, polyaffine::PointState tension_kPa, double* W,
-                double* P, double* A) const override;
+  /// Throws ComputationError when `tension_kPa` has none for one of the points.
+  void respond(polyaffine::PackPoints points, const polyaffine::Mat3Pack& F,
+               polyaffine::PointState tension_kPa, bool tangent, polyaffine::PackResponse& r) const override;
 
  private:
   FibreAxes axes_;

@@ -8,7 +8,7 @@ namespace {
 
 using namespace polyaffine;
 
-LagrangianResponse respond(const GuccioneParameters& p, const SymPack& C, bool tangent) {
+LagrangianResponse lagrangian_response(const GuccioneParameters& p, const SymPack& C, bool tangent) {
   const double b[6] = {p.bf, p.bt, p.bt, p.bfs, p.bt, p.bfs};
   LagrangianResponse l{};
   SymPack bE;
@@ -45,25 +45,22 @@ Guccione::Guccione(GuccioneParameters parameters, FibreAxes axes, std::vector<do
   factor_.require_size(axes_.cols());
 }
 
-void Guccione::evaluate(int first, int count, const double* F, PointState, double* W, double* P,
-                        double* A) const {
-  evaluate_packed(first, count, F, W, P, A,
-                  [this](PackPoints points, const Mat3Pack& f, bool tangent, PackResponse& r) {
-                    const Mat3Pack R = pack_axes(axes_, points);
-                    const Mat3Pack local = to_local_axes(f, R);
-                    const SymPack C = right_cauchy_green(local);
-                    LagrangianResponse l;
-                    if (parameters_.isochoric) {
-                      const IsochoricStrain strain = isochoric_strain(C, determinant(f, cofactor(f)));
-                      l = respond(parameters_, strain.C_bar, tangent);
-                      make_isochoric(strain, tangent, l);
-                    } else {
-                      l = respond(parameters_, C, tangent);
-                    }
-                    add_lagrangian(local, l, tangent, r);
-                    from_local_axes(R, tangent, r);
-                    factor_.apply(points, tangent, r);
-                  });
+void Guccione::respond(PackPoints points, const Mat3Pack& f, PointState, bool tangent,
+                       PackResponse& r) const {
+  const Mat3Pack R = pack_axes(axes_, points);
+  const Mat3Pack local = to_local_axes(f, R);
+  const SymPack C = right_cauchy_green(local);
+  LagrangianResponse l;
+  if (parameters_.isochoric) {
+    const IsochoricStrain strain = isochoric_strain(C, determinant(f, cofactor(f)));
+    l = lagrangian_response(parameters_, strain.C_bar, tangent);
+    make_isochoric(strain, tangent, l);
+  } else {
+    l = lagrangian_response(parameters_, C, tangent);
+  }
+  add_lagrangian(local, l, tangent, r);
+  from_local_axes(R, tangent, r);
+  factor_.apply(points, tangent, r);
 }
 
 }  // namespace cardiac

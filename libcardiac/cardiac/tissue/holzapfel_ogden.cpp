@@ -50,42 +50,39 @@ HolzapfelOgden::HolzapfelOgden(HolzapfelOgdenParameters parameters, FibreAxes ax
   factor_.require_size(axes_.cols());
 }
 
-void HolzapfelOgden::evaluate(int first, int count, const double* F, PointState, double* W, double* P,
-                              double* A) const {
-  evaluate_packed(first, count, F, W, P, A,
-                  [this](PackPoints points, const Mat3Pack& f, bool tangent, PackResponse& r) {
-                    const HolzapfelOgdenParameters& p = parameters_;
-                    const Mat3Pack R = pack_axes(axes_, points);
-                    const Mat3Pack local = to_local_axes(f, R);
-                    const SymPack C = right_cauchy_green(local);
-                    const IsochoricStrain strain = isochoric_strain(C, determinant(f, cofactor(f)));
+void HolzapfelOgden::respond(PackPoints points, const Mat3Pack& f, PointState, bool tangent,
+                             PackResponse& r) const {
+  const HolzapfelOgdenParameters& p = parameters_;
+  const Mat3Pack R = pack_axes(axes_, points);
+  const Mat3Pack local = to_local_axes(f, R);
+  const SymPack C = right_cauchy_green(local);
+  const IsochoricStrain strain = isochoric_strain(C, determinant(f, cofactor(f)));
 
-                    const Pack I1 = strain.C_bar.v[0] + strain.C_bar.v[1] + strain.C_bar.v[2];
-                    const Pack stiffness = p.a_kPa * exp(p.b * (I1 - 3));
-                    LagrangianResponse l{};
-                    l.W = (stiffness - p.a_kPa) / (2 * p.b);
-                    for (int i = 0; i < 3; ++i) {
-                      l.S.v[i] = stiffness;
-                      for (int j = 0; j < 3; ++j) l.CC[i][j] = 2 * p.b * stiffness;
-                    }
-                    make_isochoric(strain, tangent, l);
+  const Pack I1 = strain.C_bar.v[0] + strain.C_bar.v[1] + strain.C_bar.v[2];
+  const Pack stiffness = p.a_kPa * exp(p.b * (I1 - 3));
+  LagrangianResponse l{};
+  l.W = (stiffness - p.a_kPa) / (2 * p.b);
+  for (int i = 0; i < 3; ++i) {
+    l.S.v[i] = stiffness;
+    for (int j = 0; j < 3; ++j) l.CC[i][j] = 2 * p.b * stiffness;
+  }
+  make_isochoric(strain, tangent, l);
 
-                    const Scalar along[2] = {switched(p.a_f_kPa, p.b_f, p.switch_steepness, C.v[0] - 1),
-                                             switched(p.a_s_kPa, p.b_s, p.switch_steepness, C.v[1] - 1)};
-                    for (int i = 0; i < 2; ++i) {
-                      l.W += along[i].value;
-                      l.S.v[i] += 2 * along[i].first;
-                      l.CC[i][i] += 4 * along[i].second;
-                    }
-                    const Scalar shear = quadratic_exponential(p.a_fs_kPa, p.b_fs, C(0, 1));
-                    l.W += shear.value;
-                    l.S(0, 1) += shear.first;
-                    l.CC[3][3] += shear.second;
+  const Scalar along[2] = {switched(p.a_f_kPa, p.b_f, p.switch_steepness, C.v[0] - 1),
+                           switched(p.a_s_kPa, p.b_s, p.switch_steepness, C.v[1] - 1)};
+  for (int i = 0; i < 2; ++i) {
+    l.W += along[i].value;
+    l.S.v[i] += 2 * along[i].first;
+    l.CC[i][i] += 4 * along[i].second;
+  }
+  const Scalar shear = quadratic_exponential(p.a_fs_kPa, p.b_fs, C(0, 1));
+  l.W += shear.value;
+  l.S(0, 1) += shear.first;
+  l.CC[3][3] += shear.second;
 
-                    add_lagrangian(local, l, tangent, r);
-                    from_local_axes(R, tangent, r);
-                    factor_.apply(points, tangent, r);
-                  });
+  add_lagrangian(local, l, tangent, r);
+  from_local_axes(R, tangent, r);
+  factor_.apply(points, tangent, r);
 }
 
 }  // namespace cardiac

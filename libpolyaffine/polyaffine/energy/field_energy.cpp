@@ -2,52 +2,46 @@
 
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Geometry>
-#include <Eigen/LU>
+#include <algorithm>
+
+#include <polyaffine/kinematics/block_products.hpp>
+#include <polyaffine/material/volumetric_response.hpp>
 
 namespace polyaffine {
 namespace {
 
-constexpr int kChunk = 256;  // blocks whose local matrices are kept before they are added in order
-
-Mat3 cofactor(const Mat3& F) {
-  Mat3 c;
-  c.col(0) = F.col(1).cross(F.col(2));
-  c.col(1) = F.col(2).cross(F.col(0));
-  c.col(2) = F.col(0).cross(F.col(1));
-  return c;
-}
-
-// Adds s·∂²det/∂F² to a 9×9 matrix.
-void add_cofactor_derivative(const Mat3& F, double s, double* A) {
-  Eigen::Map<Eigen::Matrix<double, 9, 9>> out(A);
-  const auto cross = [&](int i, int j, int col, double sign) {
-    const Vec3 f = sign * s * F.col(col);
-    // ∂(col i of cof)/∂(col j of F) = sign [F_col]×
-    Mat3 m;
-    m << 0, -f.z(), f.y(), f.z(), 0, -f.x(), -f.y(), f.x(), 0;
-    out.block<3, 3>(3 * i, 3 * j) += m;
-  };
-  cross(0, 1, 2, -1);
-  cross(0, 2, 1, 1);
-  cross(1, 0, 2, 1);
-  cross(1, 2, 0, -1);
-  cross(2, 0, 1, -1);
-  cross(2, 1, 0, 1);
-}
+constexpr int kChunk = 256;          // blocks whose local matrices are kept before they are added in order
+constexpr int kSerialPoints = 4096;  // points whose forces one thread computes sooner than it wakes another
 
 void scatter(const std::vector<int>& functions, const Matrix& local, Vector& global) {
   for (std::size_t a = 0; a < functions.size(); ++a)
     global.segment<3>(3 * functions[a]) += local.col(static_cast<Eigen::Index>(a));
 }
 
-// Runs work(k) for the blocks of a chunk in parallel and then finish(k) in order: the sums do not depend on
+// As for a dead load.
+bool without_tangent(const PackResponse& r) {
+  for (int i = 0; i < 9; ++i)
+    for (int j = 0; j <= i; ++j)
+      for (int lane = 0; lane < kLanes; ++lane)
+        if (r.A[i][j][lane] != 0) return false;
+  return true;
+}
+
+template <class Work>
+void for_range(bool parallel, int begin, int end, const Work& work) {
+  if (parallel)
+    tbb::parallel_for(begin, end, work);
+  else
+    for (int k = begin; k < end; ++k) work(k);
+}
+
+// Runs work(k, slot) for the blocks of a chunk and then finish(k, slot) in order: the sums do not depend on
 // threads.
 template <class Work, class Finish>
-void for_blocks(int count, const Work& work, const Finish& finish) {
+void for_blocks(bool parallel, int count, const Work& work, const Finish& finish) {
   for (int begin = 0; begin < count; begin += kChunk) {
     const int end = std::min(count, begin + kChunk);
-    tbb::parallel_for(begin, end, [&](int k) { work(k, k - begin); });
+    for_range(parallel, begin, end, [&](int k) { work(k, k - begin); });
     for (int k = begin; k < end; ++k) finish(k, k - begin);
   }
 }
@@ -55,10 +49,9 @@ void for_blocks(int count, const Work& work, const Finish& finish) {
 }  // namespace
 
 struct FieldEnergy::Kinematics {
-  Matrix F;    // 9 × points
-  Vector J;    // det F
-  Matrix cof;  // 9 × points; only with a pressure space
-  Vector p;    // pressure coefficients
+  std::vector<Mat3Pack> F, rate;  // of all packs; the rate only with viscosity
+  Vector J;                       // det F of all points
+  Vector p;                       // pressure coefficients
   double volumetric_energy = 0;
 };
 
@@ -67,20 +60,34 @@ FieldEnergy::FieldEnergy(FieldTable table, std::vector<std::shared_ptr<const Law
     : table_(std::move(table)),
       laws_(std::move(laws)),
       pressure_(std::move(pressure)),
-      viscosity_(std::move(viscosity)) {
+      viscosity_(std::move(viscosity)),
+      first_pack_{0} {
   if (pressure_) inverse_mass_ = InverseMass(*pressure_, table_);
+  for (const auto& block : table_.blocks) {
+    packed_.emplace_back(block, table_);
+    first_pack_.push_back(first_pack_.back() + packed_.back().num_packs());
+  }
 }
 
 FieldEnergy::Kinematics FieldEnergy::kinematics(const Motion& motion) const {
   Kinematics kin;
-  kin.F = evaluate_field(table_, motion.c);
+  const bool with_rate = viscosity_ && motion.rate;
+  kin.F.resize(first_pack_.back());
+  if (with_rate) kin.rate.resize(first_pack_.back());
   kin.J.resize(table_.num_points());
-  for (int q = 0; q < table_.num_points(); ++q) kin.J[q] = kin.F.col(q).reshaped(3, 3).determinant();
+  for_range(table_.num_points() > kSerialPoints, 0, static_cast<int>(packed_.size()), [&](int k) {
+    const PackedBlock& block = packed_[k];
+    Mat3Pack* F = kin.F.data() + first_pack_[k];
+    block.field(motion.c, true, F);
+    if (with_rate) block.field(*motion.rate, false, kin.rate.data() + first_pack_[k]);
+    for (int p = 0; p < block.num_packs(); ++p) {
+      const Pack J = determinant(F[p], cofactor(F[p]));
+      const auto [point, lanes] = block.points(p);
+      for (int lane = 0; lane < lanes; ++lane) kin.J[point + lane] = J[lane];
+    }
+  });
   if (!pressure_) return kin;
 
-  kin.cof.resize(9, table_.num_points());
-  for (int q = 0; q < table_.num_points(); ++q)
-    kin.cof.col(q) = cofactor(kin.F.col(q).reshaped(3, 3)).reshaped();
   Vector g = Vector::Zero(pressure_->num_functions);
   for (std::size_t k = 0; k < table_.blocks.size(); ++k) {
     const auto& block = table_.blocks[k];
@@ -93,51 +100,38 @@ FieldEnergy::Kinematics FieldEnergy::kinematics(const Motion& motion) const {
   return kin;
 }
 
-// Stress (and tangent) of all laws and of the pressure at the points of a block, times the integration
-// weights.
-void FieldEnergy::evaluate_laws(const Kinematics& kin, const Matrix& rate, const Motion& motion,
-                                std::size_t k, double* energy, Matrix& P, Matrix* A,
-                                double rate_factor) const {
-  const auto& block = table_.blocks[k];
-  const double* F = kin.F.col(block.first).data();
-  P.setZero(9, block.count);
-  if (A) A->setZero(81, block.count);
-  Vector W = Vector::Zero(energy ? block.count : 0);
-  for (const auto& law : laws_)
-    law->evaluate(block.first, block.count, F, motion.state, energy ? W.data() : nullptr, P.data(),
-                  A ? A->data() : nullptr);
-  if (viscosity_ && motion.rate) {
-    Matrix A_dot;
-    if (A) A_dot.setZero(81, block.count);
-    viscosity_->evaluate(block.first, block.count, F, rate.col(block.first).data(), P.data(),
-                         A ? A_dot.data() : nullptr);
-    if (A) *A += rate_factor * A_dot;
-  }
-  if (pressure_) {
-    const auto& space = pressure_->blocks[k];
-    const Vector p = space.values.transpose() * kin.p(space.functions);
-    P.noalias() += kin.cof.middleCols(block.first, block.count) * p.asDiagonal();
-    if (A)
-      for (int q = 0; q < block.count; ++q)
-        add_cofactor_derivative(kin.F.col(block.first + q).reshaped(3, 3), p[q], A->col(q).data());
-  }
-  const auto w = table_.weights.segment(block.first, block.count);
-  if (energy) *energy = W.dot(w);
-  P *= w.asDiagonal();
-  if (A) *A *= w.asDiagonal();
+// Pressure at the points of a block, filled up to whole packs; empty without a pressure space.
+Vector FieldEnergy::point_pressure(const Kinematics& kin, std::size_t k) const {
+  if (!pressure_) return {};
+  const auto& space = pressure_->blocks[k];
+  Vector p = Vector::Zero(kLanes * packed_[k].num_packs());
+  p.head(table_.blocks[k].count).noalias() = space.values.transpose() * kin.p(space.functions);
+  return p;
 }
 
-Matrix FieldEnergy::field_rate(const Motion& motion) const {
-  if (!viscosity_ || !motion.rate) return {};
-  Matrix rate = Matrix::Zero(9, table_.num_points());
-  for (const auto& block : table_.blocks)
-    add_field(block, gather(block, *motion.rate), rate.col(block.first).data());
-  return rate;
+// Response of all laws and of the pressure at one pack, times the integration weights.
+void FieldEnergy::respond(const Kinematics& kin, const Motion& motion, std::size_t k, const Vector& pressure,
+                          int pack, bool tangent, double rate_factor, PackResponse& r) const {
+  const PackPoints points = packed_[k].points(pack);
+  const int at = first_pack_[k] + pack;
+  clear(r, tangent);
+  for (const auto& law : laws_) {
+    PackResponse own;
+    clear(own, tangent);
+    law->respond(points, kin.F[at], motion.state, tangent, own);
+    add(own, tangent, r);
+  }
+  if (!kin.rate.empty()) viscosity_->respond(points, kin.F[at], kin.rate[at], rate_factor, tangent, r);
+  if (pressure.size() > 0)
+    add_volumetric(
+        kin.F[at], cofactor(kin.F[at]),
+        {broadcast(0), load(pressure.data() + kLanes * static_cast<std::ptrdiff_t>(pack)), broadcast(0)},
+        tangent, r);
+  scale(packed_[k].weight(pack), tangent, r);
 }
 
 EnergyValue FieldEnergy::evaluate(const Motion& motion) const {
   const Kinematics kin = kinematics(motion);
-  const Matrix rate = field_rate(motion);
   EnergyValue out;
   out.gradient = Vector::Zero(table_.num_unknowns());
   out.min_det = kin.J.minCoeff();
@@ -146,64 +140,63 @@ EnergyValue FieldEnergy::evaluate(const Motion& motion) const {
   std::vector<double> energy(kChunk);
   std::vector<Matrix> force(kChunk);
   for_blocks(
-      static_cast<int>(table_.blocks.size()),
+      table_.num_points() > kSerialPoints, static_cast<int>(packed_.size()),
       [&](int k, int slot) {
-        Matrix P;
-        evaluate_laws(kin, rate, motion, k, &energy[slot], P, nullptr, 1);
-        force[slot].setZero(3, table_.blocks[k].num_functions());
-        add_field_transpose(table_.blocks[k], P.data(), force[slot]);
+        const PackedBlock& block = packed_[k];
+        const Vector pressure = point_pressure(kin, k);
+        std::vector<Mat3Pack> P(block.num_packs());
+        Pack W = broadcast(0);
+        PackResponse r;
+        for (int pack = 0; pack < block.num_packs(); ++pack) {
+          respond(kin, motion, k, pressure, pack, false, 0, r);
+          W += r.W;
+          std::copy(r.P, r.P + 9, P[pack].m);
+        }
+        energy[slot] = sum(W);
+        block.force(P.data(), force[slot]);
       },
       [&](int k, int slot) {
         out.value += energy[slot];
-        scatter(table_.blocks[k].functions(), force[slot], out.gradient);
+        scatter(packed_[k].functions(), force[slot], out.gradient);
       });
   return out;
 }
 
-// Rows D_b = ∂g_b/∂c of the pressure functions of a block, by local unknown.
-Matrix FieldEnergy::dilatation_rows(const Kinematics& kin, std::size_t k) const {
-  const auto& block = table_.blocks[k];
-  const auto& space = pressure_->blocks[k];
-  Matrix rows(static_cast<Eigen::Index>(space.functions.size()), 3 * block.num_functions());
-  for (Eigen::Index b = 0; b < rows.rows(); ++b) {
-    const Vector weight =
-        space.values.row(b).transpose().array() * table_.weights.segment(block.first, block.count).array();
-    const Matrix S = kin.cof.middleCols(block.first, block.count) * weight.asDiagonal();
-    Matrix force = Matrix::Zero(3, block.num_functions());
-    add_field_transpose(block, S.data(), force);
-    rows.row(b) = force.reshaped().transpose();
-  }
-  return rows;
-}
-
 void FieldEnergy::add_tangent(const Motion& motion, LinearSystem& system, double scale,
                               double rate_factor) const {
-  const Kinematics kin = kinematics(motion);
-  const Matrix rate = rate_factor != 0 ? field_rate(motion) : Matrix();
-  const Motion used{motion.c, motion.state, rate.size() > 0 ? motion.rate : nullptr};
+  const Motion used{motion.c, motion.state, rate_factor != 0 ? motion.rate : nullptr};
+  const Kinematics kin = kinematics(used);
   const bool global = pressure_ && !inverse_mass_.local();
   Matrix D;
   if (global) D = Matrix::Zero(pressure_->num_functions, table_.num_unknowns());
   std::vector<Matrix> K(kChunk), rows(kChunk);
   for_blocks(
-      static_cast<int>(table_.blocks.size()),
+      true, static_cast<int>(packed_.size()),
       [&](int k, int slot) {
-        Matrix P, A;
-        evaluate_laws(kin, rate, used, k, nullptr, P, &A, rate_factor);
-        if (!pressure_ && A.isZero(0)) {  // a dead load
+        const PackedBlock& block = packed_[k];
+        const Vector pressure = point_pressure(kin, k);
+        std::vector<PackResponse> responses(block.num_packs());
+        for (int pack = 0; pack < block.num_packs(); ++pack)
+          respond(kin, used, k, pressure, pack, true, rate_factor, responses[pack]);
+        if (!pressure_ && std::all_of(responses.begin(), responses.end(), without_tangent)) {
           K[slot].resize(0, 0);
           return;
         }
-        block_stiffness(table_.blocks[k], A.data(), K[slot]);
+        block_stiffness(block, responses.data(), K[slot]);
         if (!pressure_) return;
-        rows[slot] = dilatation_rows(kin, k);
+        std::vector<Mat3Pack> S(block.num_packs());
+        for (int pack = 0; pack < block.num_packs(); ++pack) {
+          S[pack] = cofactor(kin.F[first_pack_[k] + pack]);
+          for (Pack& s : S[pack].m) s *= block.weight(pack);
+        }
+        block_force_rows(block, S.data(), pressure_->blocks[k].values, rows[slot]);
         if (!global)
           K[slot].noalias() +=
               pressure_->bulk_modulus * rows[slot].transpose() * (inverse_mass_.block(k) * rows[slot]);
       },
       [&](int k, int slot) {
         if (K[slot].size() == 0) return;
-        const std::vector<int> functions = table_.blocks[k].functions();
+        const std::vector<int>& functions = packed_[k].functions();
         system.add(functions, scale * K[slot]);
         if (!global) return;
         const auto& pressures = pressure_->blocks[k].functions;

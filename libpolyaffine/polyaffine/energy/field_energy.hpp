@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <polyaffine/energy/pressure_space.hpp>
-#include <polyaffine/kinematics/field_table.hpp>
+#include <polyaffine/kinematics/packed_block.hpp>
 #include <polyaffine/material/law.hpp>
 #include <polyaffine/material/viscosity.hpp>
 #include <polyaffine/solve/linear_system.hpp>
@@ -54,16 +54,17 @@ class FieldEnergy {
  private:
   struct Kinematics;
   Kinematics kinematics(const Motion& motion) const;
-  Matrix field_rate(const Motion& motion) const;
-  void evaluate_laws(const Kinematics& kin, const Matrix& rate, const Motion& motion, std::size_t k,
-                     double* energy, Matrix& P, Matrix* A, double rate_factor) const;
-  Matrix dilatation_rows(const Kinematics& kin, std::size_t k) const;
+  void respond(const Kinematics& kin, const Motion& motion, std::size_t k, const Vector& pressure, int pack,
+               bool tangent, double rate_factor, PackResponse& r) const;
+  Vector point_pressure(const Kinematics& kin, std::size_t k) const;
 
   FieldTable table_;
   std::vector<std::shared_ptr<const Law>> laws_;
   std::optional<PressureSpace> pressure_;
   std::optional<KelvinVoigt> viscosity_;
   InverseMass inverse_mass_;
+  std::vector<PackedBlock> packed_;
+  std::vector<int> first_pack_;  // of each block, and their number
 };
 
 }  // namespace polyaffine

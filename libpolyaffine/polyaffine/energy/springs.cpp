@@ -12,24 +12,27 @@ SurfaceSpring::SurfaceSpring(double stiffness, Points normals) : SurfaceSpring(s
   normals_ = std::move(normals);
 }
 
-void SurfaceSpring::evaluate(int first, int count, const double* M, PointState, double* W, double* P,
-                             double* A) const {
-  for (int q = 0; q < count; ++q) {
-    Mat3 k = stiffness_ * Mat3::Identity();
-    if (normals_.size() > 0) k = stiffness_ * normals_.col(first + q) * normals_.col(first + q).transpose();
-    const Vec3 u = Eigen::Map<const Vec3>(M + 9 * q);
-    const Vec3 f = k * u;
-    if (W) W[q] += 0.5 * u.dot(f);
-    if (P) Eigen::Map<Vec3>(P + 9 * q) += f;
-    if (A) Eigen::Map<Eigen::Matrix<double, 9, 9>>(A + 81 * q).topLeftCorner<3, 3>() += k;
+void SurfaceSpring::respond(PackPoints points, const Mat3Pack& M, PointState, bool tangent,
+                            PackResponse& r) const {
+  const bool along_normal = normals_.size() > 0;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      Pack k = broadcast(i == j ? stiffness_ : 0);
+      if (along_normal) {
+        const double* n = normals_.data() + 3 * static_cast<std::ptrdiff_t>(points.point);
+        k = stiffness_ * gather(n + i, 3, points.lanes) * gather(n + j, 3, points.lanes);
+      }
+      r.P[i] += k * M.m[j];
+      if (tangent && j <= i) r.A[i][j] = k;
+    }
+    r.W += 0.5 * M.m[i] * r.P[i];
   }
 }
 
-void DeadTraction::evaluate(int, int count, const double* M, PointState, double* W, double* P,
-                            double*) const {
-  for (int q = 0; q < count; ++q) {
-    if (W) W[q] -= traction_.dot(Eigen::Map<const Vec3>(M + 9 * q));
-    if (P) Eigen::Map<Vec3>(P + 9 * q) -= traction_;
+void DeadTraction::respond(PackPoints, const Mat3Pack& M, PointState, bool, PackResponse& r) const {
+  for (int i = 0; i < 3; ++i) {
+    r.W -= traction_[i] * M.m[i];
+    r.P[i] = broadcast(-traction_[i]);
   }
 }
 

@@ -14,8 +14,8 @@ class SurfaceSpring : public Law {
   explicit SurfaceSpring(double stiffness);
   /// Along unit normals, one a point.
   SurfaceSpring(double stiffness, Points normals);
-  void evaluate(int first, int count, const double* M, PointState state, double* W, double* P,
-                double* A) const override;
+  void respond(PackPoints points, const Mat3Pack& M, PointState state, bool tangent,
+               PackResponse& r) const override;
 
  private:
   double stiffness_;
@@ -26,8 +26,8 @@ class SurfaceSpring : public Law {
 class DeadTraction : public Law {
  public:
   explicit DeadTraction(const Vec3& traction) : traction_(traction) {}
-  void evaluate(int first, int count, const double* M, PointState state, double* W, double* P,
-                double* A) const override;
+  void respond(PackPoints points, const Mat3Pack& M, PointState state, bool tangent,
+               PackResponse& r) const override;
 
  private:
   Vec3 traction_;

@@ -54,7 +54,5 @@ void add_field(const PointBlock& block, const Matrix& coefficients, double* fiel
 void add_field_transpose(const PointBlock& block, const double* S, Matrix& force);
 /// M_q at all points, 9 × points.
 Matrix evaluate_field(const FieldTable& table, const Vector& c);
-/// Block stiffness Σ_q B_qᵀ A_q B_q for 81 × count symmetric A, (3·functions)², full storage.
-void block_stiffness(const PointBlock& block, const double* A, Matrix& K);
 
 }  // namespace polyaffine

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <algorithm>
-
 #include <polyaffine/material/pack.hpp>
 
 namespace polyaffine {
@@ -30,28 +28,13 @@ inline void clear(PackResponse& r, bool tangent) {
     for (Pack& a : row) a = broadcast(0);
 }
 
-/// The loop of every law: walks over the points of Law::evaluate pack by pack, lets
-/// `kernel(PackPoints, const Mat3Pack& F, bool tangent, PackResponse& cleared)` fill in the response and adds
-/// it to the outputs that are not null. Without `tangent` the kernel may leave A alone.
-template <class Kernel>
-void evaluate_packed(int first, int count, const double* F, double* W, double* P, double* A,
-                     const Kernel& kernel) {
-  for (int start = 0; start < count; start += kLanes) {
-    const int lanes = std::min(kLanes, count - start);
-    const std::ptrdiff_t offset = start;
-    Mat3Pack pack;
-    for (int i = 0; i < 9; ++i) pack.m[i] = gather(F + 9 * offset + i, 9, lanes);
-    PackResponse r;
-    clear(r, A != nullptr);
-    kernel(PackPoints{first + start, lanes}, pack, A != nullptr, r);
-    if (W) scatter_add(W + offset, 1, lanes, r.W);
-    if (P) scatter_add_points<9>(P + 9 * offset, lanes, r.P);
-    if (A) {
-      for (int row = 0; row < 9; ++row)
-        for (int column = row + 1; column < 9; ++column) r.A[row][column] = r.A[column][row];
-      scatter_add_points<81>(A + 81 * offset, lanes, r.A[0]);
-    }
-  }
+/// Adds W, P and, with `tangent`, the lower triangle of A of `part` to `sum`.
+inline void add(const PackResponse& part, bool tangent, PackResponse& sum) {
+  sum.W += part.W;
+  for (int i = 0; i < 9; ++i) sum.P[i] += part.P[i];
+  if (!tangent) return;
+  for (int i = 0; i < 9; ++i)
+    for (int j = 0; j <= i; ++j) sum.A[i][j] += part.A[i][j];
 }
 
 /// Multiplies energy, stress and, with `tangent`, the tangent by a factor per point.
@@ -61,6 +44,12 @@ inline void scale(const Pack& factor, bool tangent, PackResponse& r) {
   if (!tangent) return;
   for (int i = 0; i < 9; ++i)
     for (int j = 0; j <= i; ++j) r.A[i][j] *= factor;
+}
+
+/// Copies the lower triangle of A to the upper one.
+inline void mirror(PackResponse& r) {
+  for (int row = 0; row < 9; ++row)
+    for (int column = row + 1; column < 9; ++column) r.A[row][column] = r.A[column][row];
 }
 
 }  // namespace polyaffine

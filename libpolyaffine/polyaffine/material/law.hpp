@@ -3,6 +3,7 @@
 #include <span>
 
 #include <polyaffine/core/types.hpp>
+#include <polyaffine/material/batch.hpp>
 
 namespace polyaffine {
 
@@ -11,19 +12,22 @@ namespace polyaffine {
 using PointState = std::span<const double>;
 
 /// A density over integration points: an energy W(F) per reference volume, or any other function of a 3×3
-/// matrix carried by the point. Laws add up: a material is a list of them.
-///
-/// Matrices are stored column-major, one point after the other: F and P have 9 numbers a point, A = ∂²W/∂F²
-/// has 81 (the 9×9 matrix ∂P_i/∂F_j). Unit of W and P: kPa.
+/// matrix carried by the point. Laws add up: a material is a list of them. Unit of W and P: kPa.
 class Law {
  public:
   virtual ~Law() = default;
-  /// Adds W (1 number a point), P = ∂W/∂F and A for `count` points, the first of which has index `first` in
-  /// the per-point data held by the law (fibres, stiffness) and in `state`; the arrays start at that point.
-  /// Outputs that are null are skipped. Values are meaningless, but finite work, where det F ≤ 0: callers
+  /// Fills W, P = ∂W/∂F and, with `tangent`, the lower triangle of A = ∂²W/∂F² of one pack of points into a
+  /// response that comes cleared. `points` are the places of the pack in the per-point data held by the law
+  /// (fibres, stiffness) and in `state`. Values are meaningless, but finite work, where det F ≤ 0: callers
   /// check det F.
-  virtual void evaluate(int first, int count, const double* F, PointState state, double* W, double* P,
-                        double* A) const = 0;
+  virtual void respond(PackPoints points, const Mat3Pack& F, PointState state, bool tangent,
+                       PackResponse& r) const = 0;
+
+  /// Adds W (1 number a point), P (9) and A (81, the 9×9 matrix ∂P_i/∂F_j) for `count` points from index
+  /// `first` on. Matrices are stored column-major, one point after the other; the arrays start at the first
+  /// point. Outputs that are null are skipped.
+  void evaluate(int first, int count, const double* F, PointState state, double* W, double* P,
+                double* A) const;
 };
 
 }  // namespace polyaffine

@@ -12,25 +12,22 @@ MooneyRivlin::MooneyRivlin(MooneyRivlinParameters parameters, std::vector<double
   require_positive("Mooney-Rivlin c1 + c2", parameters.c1 + parameters.c2, "kPa");
 }
 
-void MooneyRivlin::evaluate(int first, int count, const double* F, PointState, double* W, double* P,
-                            double* A) const {
-  evaluate_packed(
-      first, count, F, W, P, A, [this](PackPoints points, const Mat3Pack& f, bool tangent, PackResponse& r) {
-        const auto [c1, c2] = parameters_;
-        const IsochoricStrain strain = isochoric_strain(right_cauchy_green(f), determinant(f, cofactor(f)));
-        const SymPack& C = strain.C_bar;
-        const Pack I1 = C.v[0] + C.v[1] + C.v[2];
-        LagrangianResponse l{};
-        l.W = c1 * (I1 - 3) + c2 * (0.5 * (I1 * I1 - contract(C, C)) - 3);
-        for (int a = 0; a < 6; ++a) l.S.v[a] = (a < 3 ? 2 * (c1 + c2 * I1) : Pack{}) - 2 * c2 * C.v[a];
-        for (int a = 0; a < 3; ++a)
-          for (int b = 0; b < 3; ++b)
-            if (a != b) l.CC[a][b] += 4 * c2;
-        for (int a = 3; a < 6; ++a) l.CC[a][a] -= 2 * c2;
-        make_isochoric(strain, tangent, l);
-        add_lagrangian(f, l, tangent, r);
-        factor_.apply(points, tangent, r);
-      });
+void MooneyRivlin::respond(PackPoints points, const Mat3Pack& f, PointState, bool tangent,
+                           PackResponse& r) const {
+  const auto [c1, c2] = parameters_;
+  const IsochoricStrain strain = isochoric_strain(right_cauchy_green(f), determinant(f, cofactor(f)));
+  const SymPack& C = strain.C_bar;
+  const Pack I1 = C.v[0] + C.v[1] + C.v[2];
+  LagrangianResponse l{};
+  l.W = c1 * (I1 - 3) + c2 * (0.5 * (I1 * I1 - contract(C, C)) - 3);
+  for (int a = 0; a < 6; ++a) l.S.v[a] = (a < 3 ? 2 * (c1 + c2 * I1) : Pack{}) - 2 * c2 * C.v[a];
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b)
+      if (a != b) l.CC[a][b] += 4 * c2;
+  for (int a = 3; a < 6; ++a) l.CC[a][a] -= 2 * c2;
+  make_isochoric(strain, tangent, l);
+  add_lagrangian(f, l, tangent, r);
+  factor_.apply(points, tangent, r);
 }
 
 }  // namespace polyaffine

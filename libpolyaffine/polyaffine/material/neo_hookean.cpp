@@ -10,25 +10,22 @@ NeoHookean::NeoHookean(Lame lame, std::vector<double> factor) : lame_(lame), fac
   require_not_negative("Lame constant (lambda)", lame.lambda, "kPa");
 }
 
-void NeoHookean::evaluate(int first, int count, const double* F, PointState, double* W, double* P,
-                          double* A) const {
-  evaluate_packed(
-      first, count, F, W, P, A, [this](PackPoints points, const Mat3Pack& f, bool tangent, PackResponse& r) {
-        const auto [lambda, mu] = lame_;
-        const Mat3Pack cof = cofactor(f);
-        const Pack J = determinant(f, cof), inverse = 1 / J, log_J = log(J);
-        const Pack dU = (lambda * log_J - mu) * inverse;
-        add_volumetric(f, cof, {(0.5 * lambda * log_J - mu) * log_J, dU, (lambda * inverse - dU) * inverse},
-                       tangent, r);
-        Pack I1 = broadcast(0);
-        for (int a = 0; a < 9; ++a) {
-          I1 += f.m[a] * f.m[a];
-          r.P[a] += mu * f.m[a];
-          if (tangent) r.A[a][a] += mu;
-        }
-        r.W += 0.5 * mu * (I1 - 3);
-        factor_.apply(points, tangent, r);
-      });
+void NeoHookean::respond(PackPoints points, const Mat3Pack& f, PointState, bool tangent,
+                         PackResponse& r) const {
+  const auto [lambda, mu] = lame_;
+  const Mat3Pack cof = cofactor(f);
+  const Pack J = determinant(f, cof), inverse = 1 / J, log_J = log(J);
+  const Pack dU = (lambda * log_J - mu) * inverse;
+  add_volumetric(f, cof, {(0.5 * lambda * log_J - mu) * log_J, dU, (lambda * inverse - dU) * inverse},
+                 tangent, r);
+  Pack I1 = broadcast(0);
+  for (int a = 0; a < 9; ++a) {
+    I1 += f.m[a] * f.m[a];
+    r.P[a] += mu * f.m[a];
+    if (tangent) r.A[a][a] += mu;
+  }
+  r.W += 0.5 * mu * (I1 - 3);
+  factor_.apply(points, tangent, r);
 }
 
 IsochoricNeoHookean::IsochoricNeoHookean(double shear_modulus, std::vector<double> factor)
@@ -36,19 +33,16 @@ IsochoricNeoHookean::IsochoricNeoHookean(double shear_modulus, std::vector<doubl
   require_positive("shear modulus (mu)", shear_modulus, "kPa");
 }
 
-void IsochoricNeoHookean::evaluate(int first, int count, const double* F, PointState, double* W, double* P,
-                                   double* A) const {
-  evaluate_packed(
-      first, count, F, W, P, A, [this](PackPoints points, const Mat3Pack& f, bool tangent, PackResponse& r) {
-        const IsochoricStrain strain = isochoric_strain(right_cauchy_green(f), determinant(f, cofactor(f)));
-        const SymPack& C = strain.C_bar;
-        LagrangianResponse l{};
-        l.W = 0.5 * shear_modulus_ * (C.v[0] + C.v[1] + C.v[2] - 3);
-        for (int i = 0; i < 3; ++i) l.S.v[i] = broadcast(shear_modulus_);
-        make_isochoric(strain, tangent, l);
-        add_lagrangian(f, l, tangent, r);
-        factor_.apply(points, tangent, r);
-      });
+void IsochoricNeoHookean::respond(PackPoints points, const Mat3Pack& f, PointState, bool tangent,
+                                  PackResponse& r) const {
+  const IsochoricStrain strain = isochoric_strain(right_cauchy_green(f), determinant(f, cofactor(f)));
+  const SymPack& C = strain.C_bar;
+  LagrangianResponse l{};
+  l.W = 0.5 * shear_modulus_ * (C.v[0] + C.v[1] + C.v[2] - 3);
+  for (int i = 0; i < 3; ++i) l.S.v[i] = broadcast(shear_modulus_);
+  make_isochoric(strain, tangent, l);
+  add_lagrangian(f, l, tangent, r);
+  factor_.apply(points, tangent, r);
 }
 
 }  // namespace polyaffine

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -22,12 +23,28 @@ struct Mat3Pack {
   const Pack& operator()(int row, int column) const { return m[row + 3 * column]; }
 };
 
+/// kLanes neighbouring numbers in memory, at any address.
+using LoosePack = double __attribute__((vector_size(8 * kLanes), aligned(8), may_alias));
+inline Pack load(const double* data) {
+  return *reinterpret_cast<const LoosePack*>(data);
+}
+inline void store(double* data, const Pack& v) {
+  *reinterpret_cast<LoosePack*>(data) = v;
+}
+
 /// Reads base[0], base[stride], … one per lane. Lanes from `lanes` on repeat the last valid one, so that the
 /// end of a batch computes on ordinary numbers.
 inline Pack gather(const double* base, std::ptrdiff_t stride, int lanes) {
   Pack v;
   for (int lane = 0; lane < kLanes; ++lane) v[lane] = base[stride * (lane < lanes ? lane : lanes - 1)];
   return v;
+}
+
+/// The 3×3 matrices of the points of a pack, nine numbers a point, points one after the other.
+inline Mat3Pack gather_matrix(const double* base, int lanes) {
+  Mat3Pack m;
+  for (int i = 0; i < 9; ++i) m.m[i] = gather(base + i, 9, lanes);
+  return m;
 }
 
 /// Adds lane l of `v` to base[l · stride] for the first `lanes` lanes.
@@ -41,9 +58,8 @@ template <std::ptrdiff_t size>
 void scatter_add_points(double* base, int lanes, const Pack* v) {
   std::ptrdiff_t i = 0;
 #ifdef __AVX__
-  using Unaligned = double __attribute__((vector_size(8 * kLanes), aligned(8), may_alias));
   const auto at = [base](std::ptrdiff_t lane, std::ptrdiff_t entry) {
-    return reinterpret_cast<Unaligned*>(base + size * lane + entry);
+    return reinterpret_cast<LoosePack*>(base + size * lane + entry);
   };
   if (lanes == kLanes)
     for (; i + 4 <= size; i += 4) {
@@ -62,6 +78,13 @@ void scatter_add_points(double* base, int lanes, const Pack* v) {
 
 inline Pack broadcast(double value) {
   return Pack{} + value;
+}
+
+/// Sum of the lanes, in their order.
+inline double sum(const Pack& v) {
+  double s = v[0];
+  for (int lane = 1; lane < kLanes; ++lane) s += v[lane];
+  return s;
 }
 
 /// e^x to about 1 ulp: x = n ln 2 + r, |r| ≤ ln 2 / 2, Taylor polynomial of degree 13 for e^r (remainder
@@ -92,9 +115,17 @@ inline Pack log(const Pack& x) {
   return y;
 }
 
+/// ∛x to about 1 ulp for x > 0 (meaningless elsewhere): a third of the exponent bits gives y to 5 %, and
+/// three steps of Halley's iteration cube the error each.
 inline Pack cbrt(const Pack& x) {
   Pack y;
-  for (int lane = 0; lane < kLanes; ++lane) y[lane] = std::cbrt(x[lane]);
+  for (int lane = 0; lane < kLanes; ++lane)
+    y[lane] = std::bit_cast<double>(std::bit_cast<std::uint64_t>(x[lane]) / 3 + 0x2A9F7893782DA1CEULL);
+#pragma GCC unroll 3
+  for (int k = 0; k < 3; ++k) {
+    const Pack cube = y * y * y;
+    y = y - y * (cube - x) / (cube + (cube + x));
+  }
   return y;
 }
 

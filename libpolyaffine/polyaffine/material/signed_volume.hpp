@@ -11,8 +11,8 @@ namespace polyaffine {
 class SignedVolume : public Law {
  public:
   explicit SignedVolume(double scale) : scale_(scale) {}
-  void evaluate(int first, int count, const double* M, PointState state, double* W, double* P,
-                double* A) const override;
+  void respond(PackPoints points, const Mat3Pack& M, PointState state, bool tangent,
+               PackResponse& r) const override;
 
  private:
   double scale_;

@@ -10,16 +10,13 @@ QuadraticVolumetric::QuadraticVolumetric(double bulk_modulus, std::vector<double
   require_positive("bulk modulus", bulk_modulus, "kPa");
 }
 
-void QuadraticVolumetric::evaluate(int first, int count, const double* F, PointState, double* W, double* P,
-                                   double* A) const {
-  evaluate_packed(first, count, F, W, P, A,
-                  [this](PackPoints points, const Mat3Pack& f, bool tangent, PackResponse& r) {
-                    const Mat3Pack cof = cofactor(f);
-                    const Pack dJ = determinant(f, cof) - 1;
-                    const Pack kappa = broadcast(bulk_modulus_);
-                    add_volumetric(f, cof, {0.5 * kappa * dJ * dJ, kappa * dJ, kappa}, tangent, r);
-                    factor_.apply(points, tangent, r);
-                  });
+void QuadraticVolumetric::respond(PackPoints points, const Mat3Pack& f, PointState, bool tangent,
+                                  PackResponse& r) const {
+  const Mat3Pack cof = cofactor(f);
+  const Pack dJ = determinant(f, cof) - 1;
+  const Pack kappa = broadcast(bulk_modulus_);
+  add_volumetric(f, cof, {0.5 * kappa * dJ * dJ, kappa * dJ, kappa}, tangent, r);
+  factor_.apply(points, tangent, r);
 }
 
 LogarithmicVolumetric::LogarithmicVolumetric(double bulk_modulus, std::vector<double> factor)
@@ -27,19 +24,16 @@ LogarithmicVolumetric::LogarithmicVolumetric(double bulk_modulus, std::vector<do
   require_positive("bulk modulus", bulk_modulus, "kPa");
 }
 
-void LogarithmicVolumetric::evaluate(int first, int count, const double* F, PointState, double* W, double* P,
-                                     double* A) const {
-  evaluate_packed(first, count, F, W, P, A,
-                  [this](PackPoints points, const Mat3Pack& f, bool tangent, PackResponse& r) {
-                    const Mat3Pack cof = cofactor(f);
-                    const Pack J = determinant(f, cof), inverse = 1 / J;
-                    const double kappa = bulk_modulus_;
-                    add_volumetric(f, cof,
-                                   {0.25 * kappa * (J * J - 1 - 2 * log(J)), 0.5 * kappa * (J - inverse),
-                                    0.5 * kappa * (1 + inverse * inverse)},
-                                   tangent, r);
-                    factor_.apply(points, tangent, r);
-                  });
+void LogarithmicVolumetric::respond(PackPoints points, const Mat3Pack& f, PointState, bool tangent,
+                                    PackResponse& r) const {
+  const Mat3Pack cof = cofactor(f);
+  const Pack J = determinant(f, cof), inverse = 1 / J;
+  const double kappa = bulk_modulus_;
+  add_volumetric(f, cof,
+                 {0.25 * kappa * (J * J - 1 - 2 * log(J)), 0.5 * kappa * (J - inverse),
+                  0.5 * kappa * (1 + inverse * inverse)},
+                 tangent, r);
+  factor_.apply(points, tangent, r);
 }
 
 }  // namespace polyaffine

@@ -16,11 +16,11 @@ const Elasticity kElasticity{10, 0.3};  // kPa
 class BodyForce : public Law {
  public:
   explicit BodyForce(Points b) : b_(std::move(b)) {}
-  void evaluate(int first, int count, const double* M, PointState, double* W, double* P,
-                double*) const override {
-    for (int q = 0; q < count; ++q) {
-      if (W) W[q] -= b_.col(first + q).dot(Eigen::Map<const Vec3>(M + 9 * q));
-      if (P) Eigen::Map<Vec3>(P + 9 * q) -= b_.col(first + q);
+  void respond(PackPoints points, const Mat3Pack& M, PointState, bool, PackResponse& r) const override {
+    for (int i = 0; i < 3; ++i) {
+      const Pack b = gather(b_.data() + 3 * static_cast<std::ptrdiff_t>(points.point) + i, 3, points.lanes);
+      r.W -= b * M.m[i];
+      r.P[i] = -b;
     }
   }
 

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <vector>
+
+#include <polyaffine/kinematics/field_table.hpp>
+#include <polyaffine/material/batch.hpp>
+
+namespace polyaffine {
+
+/// A block of a field table laid out for the inner loops: kLanes points side by side, so that the field, its
+/// transpose and the stiffness are sums of SIMD products. The last pack repeats the last point of the block
+/// where points are missing; those lanes have weight zero.
+class PackedBlock {
+ public:
+  struct Group {
+    int d = 3;
+    int num_functions = 0;
+    int padded = 0;       ///< functions, rounded up to a multiple of four
+    bool lifted = false;  ///< the lift is not the identity
+    bool present[3][4];   ///< which 3×3 blocks of the lift are not zero
+    /// Row e of function a at the points of pack p: kLanes numbers from ((p · num_functions + a) d + e)
+    /// kLanes.
+    std::vector<double> by_pack;
+    /// The same rows, function a fastest: padded × (d · kLanes · packs), point after point.
+    Matrix by_point;
+    /// Entry (i, j) of the 9×3d lift of pack p: kLanes numbers from ((p · 3d + j) 9 + i) kLanes.
+    std::vector<double> lift;
+  };
+
+  PackedBlock(const PointBlock& block, const FieldTable& table);
+
+  int num_packs() const { return static_cast<int>(points_.size()); }
+  PackPoints points(int pack) const { return points_[pack]; }
+  Pack weight(int pack) const { return load(weights_.data() + kLanes * static_cast<std::ptrdiff_t>(pack)); }
+  /// Function indices of all groups, in order; the local numbering.
+  const std::vector<int>& functions() const { return functions_; }
+  const std::vector<Group>& groups() const { return groups_; }
+
+  /// M of every pack for the unknowns c; the constant M⁰ only if `with_base`.
+  void field(const Vector& c, bool with_base, Mat3Pack* M) const;
+  /// The transpose: the 3 × functions force Σ_q S_q : ∂M_q/∂c of values S.
+  void force(const Mat3Pack* S, Matrix& out) const;
+
+ private:
+  std::vector<PackPoints> points_;
+  std::vector<double> weights_;
+  std::vector<double> base_;  // 9 numbers a pack; empty: the identity
+  std::vector<int> functions_;
+  std::vector<Group> groups_;
+};
+
+/// S pulled back to the coordinates vec(3×d) of a group at one pack, Y = LᵀS: entry k of column e has index
+/// k + 3e.
+void pull_back(const PackedBlock::Group& group, int pack, const Mat3Pack& S, Pack* Y);
+
+}  // namespace polyaffine
