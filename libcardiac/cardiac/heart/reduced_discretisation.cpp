@@ -188,7 +188,7 @@ Discretisation reduced_discretisation(const Anatomy& anatomy, const Protocol& pr
   out.points = protocol.reduction.integration == protocol::Integration::gauss
                    ? polyaffine::group_cells(candidates, cells.cell)
                    : polyaffine::compress_cells(candidates, cells.cell, cells.place, kCellDegree);
-  add_surface_points(anatomy, protocol, geometry, 1, out);
+  add_surface_points(anatomy, protocol, geometry, 4, out);
   for (auto* points : {&out.cavity_points, &out.epicardium_points})
     if (!points->tet.empty()) *points = by_cell(*points, surface_cells(anatomy, out, *points));
   return out;
