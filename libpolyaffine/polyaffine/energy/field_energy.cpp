@@ -27,6 +27,12 @@ bool without_tangent(const PackResponse& r) {
   return true;
 }
 
+Mat3Pack scaled_cofactor(const Mat3Pack& F, const Pack& factor) {
+  Mat3Pack out = cofactor(F);
+  for (Pack& entry : out.m) entry *= factor;
+  return out;
+}
+
 template <class Work>
 void for_range(bool parallel, int begin, int end, const Work& work) {
   if (parallel)
@@ -51,8 +57,7 @@ void for_blocks(bool parallel, int count, const Work& work, const Finish& finish
 struct FieldEnergy::Kinematics {
   std::vector<Mat3Pack> F, rate;  // of all packs; the rate only with viscosity
   Vector J;                       // det F of all points
-  Vector p;                       // pressure coefficients
-  double volumetric_energy = 0;
+  Vector g, p;                    // volume constraint and pressure coefficients
 };
 
 FieldEnergy::FieldEnergy(FieldTable table, std::vector<std::shared_ptr<const Law>> laws,
@@ -88,25 +93,18 @@ FieldEnergy::Kinematics FieldEnergy::kinematics(const Motion& motion) const {
   });
   if (!pressure_) return kin;
 
-  Vector g = Vector::Zero(pressure_->num_functions);
-  for (std::size_t k = 0; k < table_.blocks.size(); ++k) {
-    const auto& block = table_.blocks[k];
-    const Vector dilatation = table_.weights.segment(block.first, block.count).array() *
-                              (kin.J.segment(block.first, block.count).array() - 1);
-    g(pressure_->blocks[k].functions) += pressure_->blocks[k].values * dilatation;
-  }
-  kin.p = pressure_->bulk_modulus * inverse_mass_.apply(g);
-  kin.volumetric_energy = 0.5 * g.dot(kin.p);
+  kin.g = dilatation(*pressure_, table_, kin.J);
+  kin.p = motion.pressure ? *motion.pressure : penalty_pressure(kin.g);
   return kin;
 }
 
 // Pressure at the points of a block, filled up to whole packs; empty without a pressure space.
-Vector FieldEnergy::point_pressure(const Kinematics& kin, std::size_t k) const {
+Vector FieldEnergy::point_pressure(const Vector& p, std::size_t k) const {
   if (!pressure_) return {};
   const auto& space = pressure_->blocks[k];
-  Vector p = Vector::Zero(kLanes * packed_[k].num_packs());
-  p.head(table_.blocks[k].count).noalias() = space.values.transpose() * kin.p(space.functions);
-  return p;
+  Vector out = Vector::Zero(kLanes * packed_[k].num_packs());
+  out.head(table_.blocks[k].count).noalias() = space.values.transpose() * p(space.functions);
+  return out;
 }
 
 // Response of all laws and of the pressure at one pack, times the integration weights.
@@ -136,14 +134,22 @@ EnergyValue FieldEnergy::evaluate(const Motion& motion) const {
   out.gradient = Vector::Zero(table_.num_unknowns());
   out.min_det = kin.J.minCoeff();
   out.max_det = kin.J.maxCoeff();
-  out.value = kin.volumetric_energy;
+  if (pressure_) out.value = (motion.pressure ? 1.0 : 0.5) * kin.g.dot(kin.p);
+  if (motion.pressure) {
+    out.pressure_gradient = kin.g;
+    if (!pressure_->incompressible) {
+      const Vector strain = pressure_mass(*pressure_, table_, kin.p) / pressure_->bulk_modulus;
+      out.value -= 0.5 * kin.p.dot(strain);
+      out.pressure_gradient -= strain;
+    }
+  }
   std::vector<double> energy(kChunk);
   std::vector<Matrix> force(kChunk);
   for_blocks(
       table_.num_points() > kSerialPoints, static_cast<int>(packed_.size()),
       [&](int k, int slot) {
         const PackedBlock& block = packed_[k];
-        const Vector pressure = point_pressure(kin, k);
+        const Vector pressure = point_pressure(kin.p, k);
         std::vector<Mat3Pack> P(block.num_packs());
         Pack W = broadcast(0);
         PackResponse r;
@@ -164,7 +170,7 @@ EnergyValue FieldEnergy::evaluate(const Motion& motion) const {
 
 void FieldEnergy::add_tangent(const Motion& motion, LinearSystem& system, double scale,
                               double rate_factor) const {
-  const Motion used{motion.c, motion.state, rate_factor != 0 ? motion.rate : nullptr};
+  const Motion used{motion.c, motion.state, rate_factor != 0 ? motion.rate : nullptr, motion.pressure};
   const Kinematics kin = kinematics(used);
   const bool global = pressure_ && !inverse_mass_.local();
   Matrix D;
@@ -174,7 +180,7 @@ void FieldEnergy::add_tangent(const Motion& motion, LinearSystem& system, double
       true, static_cast<int>(packed_.size()),
       [&](int k, int slot) {
         const PackedBlock& block = packed_[k];
-        const Vector pressure = point_pressure(kin, k);
+        const Vector pressure = point_pressure(kin.p, k);
         std::vector<PackResponse> responses(block.num_packs());
         for (int pack = 0; pack < block.num_packs(); ++pack)
           respond(kin, used, k, pressure, pack, true, rate_factor, responses[pack]);
@@ -185,10 +191,8 @@ void FieldEnergy::add_tangent(const Motion& motion, LinearSystem& system, double
         block_stiffness(block, responses.data(), K[slot]);
         if (!pressure_) return;
         std::vector<Mat3Pack> S(block.num_packs());
-        for (int pack = 0; pack < block.num_packs(); ++pack) {
-          S[pack] = cofactor(kin.F[first_pack_[k] + pack]);
-          for (Pack& s : S[pack].m) s *= block.weight(pack);
-        }
+        for (int pack = 0; pack < block.num_packs(); ++pack)
+          S[pack] = scaled_cofactor(kin.F[first_pack_[k] + pack], block.weight(pack));
         block_force_rows(block, S.data(), pressure_->blocks[k].values, rows[slot]);
         if (!global)
           K[slot].noalias() +=
@@ -210,6 +214,52 @@ void FieldEnergy::add_tangent(const Motion& motion, LinearSystem& system, double
 
 Vector FieldEnergy::pressure(const Vector& c) const {
   return kinematics({c}).p;
+}
+
+Vector FieldEnergy::penalty_pressure(const Vector& g) const {
+  return pressure_->bulk_modulus * inverse_mass_.apply(g);
+}
+
+Vector FieldEnergy::volume_change(const Vector& c, const Vector& u) const {
+  Vector out = Vector::Zero(pressure_->num_functions);
+  std::vector<Mat3Pack> F, change;
+  for (std::size_t k = 0; k < packed_.size(); ++k) {
+    const PackedBlock& block = packed_[k];
+    F.resize(block.num_packs());
+    change.resize(block.num_packs());
+    block.field(c, true, F.data());
+    block.field(u, false, change.data());
+    Vector at_points = Vector::Zero(table_.blocks[k].count);
+    for (int pack = 0; pack < block.num_packs(); ++pack) {
+      const Mat3Pack S = scaled_cofactor(F[pack], block.weight(pack));
+      Pack product = broadcast(0);
+      for (int i = 0; i < 9; ++i) product += S.m[i] * change[pack].m[i];
+      const auto [point, lanes] = block.points(pack);
+      for (int lane = 0; lane < lanes; ++lane)
+        at_points[point - table_.blocks[k].first + lane] = product[lane];
+    }
+    out(pressure_->blocks[k].functions) += pressure_->blocks[k].values * at_points;
+  }
+  return out;
+}
+
+Vector FieldEnergy::pressure_force(const Vector& c, const Vector& p) const {
+  Vector out = Vector::Zero(table_.num_unknowns());
+  std::vector<Mat3Pack> field;
+  Matrix force;
+  for (std::size_t k = 0; k < packed_.size(); ++k) {
+    const PackedBlock& block = packed_[k];
+    const Vector pressure = point_pressure(p, k);
+    field.resize(block.num_packs());
+    block.field(c, true, field.data());
+    for (int pack = 0; pack < block.num_packs(); ++pack)
+      field[pack] = scaled_cofactor(
+          field[pack],
+          block.weight(pack) * load(pressure.data() + kLanes * static_cast<std::ptrdiff_t>(pack)));
+    block.force(field.data(), force);
+    scatter(block.functions(), force, out);
+  }
+  return out;
 }
 
 }  // namespace polyaffine

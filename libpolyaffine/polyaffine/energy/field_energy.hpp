@@ -13,16 +13,21 @@
 namespace polyaffine {
 
 /// What an energy is evaluated at. `rate` (the time derivative of c) matters only where there is viscosity.
+/// `pressure` makes the coefficients of the pressure space independent (mixed form); without it they follow
+/// the displacement, p = κ M⁻¹ g(c) (condensed form).
 struct Motion {
   const Vector& c;
   PointState state = {};
   const Vector* rate = nullptr;
+  const Vector* pressure = nullptr;
 };
 
-/// Value, gradient and the range of det M over the points.
+/// Value, gradient by c and the range of det M over the points; in the mixed form also the gradient by the
+/// pressures, g − M p/κ (mm³), or g where the space is incompressible.
 struct EnergyValue {
   double value = 0;
   Vector gradient;
+  Vector pressure_gradient;
   double min_det = 1, max_det = 1;
 };
 
@@ -43,20 +48,26 @@ class FieldEnergy {
 
   /// Value and gradient; when min_det ≤ 0 in a wall the numbers are not to be used.
   EnergyValue evaluate(const Motion& motion) const;
-  /// Adds scale × tangent to the system. With a pressure space the dependence of the pressure on the
-  /// displacement is included; the dependence of viscous stress on c itself is not (it vanishes with the
-  /// step).
+  /// Adds scale × tangent to the system, K(c, p) + κ DᵀM⁻¹D with D = ∂g/∂c: the exact tangent of the
+  /// condensed form, and in the mixed form that of Newton's method after its pressure step is eliminated. The
+  /// dependence of viscous stress on c itself is not included (it vanishes with the step).
   void add_tangent(const Motion& motion, LinearSystem& system, double scale = 1,
                    double rate_factor = 0) const;
-  /// The pressure coefficients (kPa) of the pressure space at c.
+  /// The pressure coefficients (kPa) of the condensed form at c.
   Vector pressure(const Vector& c) const;
+
+  /// Parts of the mixed form, for an energy with a pressure space: κ M⁻¹ g, the change D(c) u of g along u,
+  /// and the force D(c)ᵀ p.
+  Vector penalty_pressure(const Vector& g) const;
+  Vector volume_change(const Vector& c, const Vector& u) const;
+  Vector pressure_force(const Vector& c, const Vector& p) const;
 
  private:
   struct Kinematics;
   Kinematics kinematics(const Motion& motion) const;
   void respond(const Kinematics& kin, const Motion& motion, std::size_t k, const Vector& pressure, int pack,
                bool tangent, double rate_factor, PackResponse& r) const;
-  Vector point_pressure(const Kinematics& kin, std::size_t k) const;
+  Vector point_pressure(const Vector& p, std::size_t k) const;
 
   FieldTable table_;
   std::vector<std::shared_ptr<const Law>> laws_;

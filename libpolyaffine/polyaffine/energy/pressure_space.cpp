@@ -28,6 +28,28 @@ Matrix inverse(const Matrix& M) {
 
 }  // namespace
 
+Vector dilatation(const PressureSpace& space, const FieldTable& table, const Vector& J) {
+  Vector g = Vector::Zero(space.num_functions);
+  for (std::size_t k = 0; k < table.blocks.size(); ++k) {
+    const auto& block = table.blocks[k];
+    const Vector change = table.weights.segment(block.first, block.count).array() *
+                          (J.segment(block.first, block.count).array() - 1);
+    g(space.blocks[k].functions) += space.blocks[k].values * change;
+  }
+  return g;
+}
+
+Vector pressure_mass(const PressureSpace& space, const FieldTable& table, const Vector& p) {
+  Vector out = Vector::Zero(space.num_functions);
+  for (std::size_t k = 0; k < table.blocks.size(); ++k) {
+    const auto& [functions, values] = space.blocks[k];
+    const auto w = table.weights.segment(table.blocks[k].first, table.blocks[k].count);
+    const Vector at_points = w.array() * (values.transpose() * p(functions)).array();
+    out(functions) += values * at_points;
+  }
+  return out;
+}
+
 InverseMass::InverseMass(const PressureSpace& space, const FieldTable& table)
     : local_(every_function_in_one_block(space)) {
   if (!local_) dense_ = Matrix::Zero(space.num_functions, space.num_functions);
@@ -53,8 +75,8 @@ Matrix InverseMass::apply(const Matrix& x) const {
   return out;
 }
 
-PressureSpace block_pressure(const FieldTable& table, double bulk_modulus) {
-  PressureSpace space{bulk_modulus, static_cast<int>(table.blocks.size()), {}};
+PressureSpace block_pressure(const FieldTable& table, double bulk_modulus, bool incompressible) {
+  PressureSpace space{bulk_modulus, incompressible, static_cast<int>(table.blocks.size()), {}};
   for (int k = 0; k < space.num_functions; ++k)
     space.blocks.push_back({{k}, Matrix::Ones(1, table.blocks[k].count)});
   return space;
@@ -62,7 +84,7 @@ PressureSpace block_pressure(const FieldTable& table, double bulk_modulus) {
 
 PressureSpace region_pressure(const FieldTable& table, const std::vector<int>& region, int num_regions,
                               double bulk_modulus) {
-  PressureSpace space{bulk_modulus, num_regions, {}};
+  PressureSpace space{bulk_modulus, false, num_regions, {}};
   for (const auto& block : table.blocks) {
     std::vector<int> present(region.begin() + block.first, region.begin() + block.first + block.count);
     std::sort(present.begin(), present.end());
@@ -77,7 +99,7 @@ PressureSpace region_pressure(const FieldTable& table, const std::vector<int>& r
 }
 
 PressureSpace dense_pressure(const FieldTable& table, const Matrix& values, double bulk_modulus) {
-  PressureSpace space{bulk_modulus, static_cast<int>(values.rows()), {}};
+  PressureSpace space{bulk_modulus, false, static_cast<int>(values.rows()), {}};
   for (const auto& block : table.blocks) {
     const auto here = values.middleCols(block.first, block.count);
     std::vector<int> present;

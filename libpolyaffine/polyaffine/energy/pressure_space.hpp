@@ -20,9 +20,17 @@ struct PressureSpace {
   };
 
   double bulk_modulus = 0;  ///< κ, kPa
+  /// True: κ stands for infinity in the mixed form, g_b = 0 exactly, and is only the penalty that keeps its
+  /// tangent positive definite (augmented Lagrangian); without independent pressures it stays a bulk modulus.
+  bool incompressible = false;
   int num_functions = 0;
   std::vector<Block> blocks;  ///< one for each block of the table
 };
+
+/// g_b = Σ_q w_q Ψ_b (J − 1) of the determinants at all points.
+Vector dilatation(const PressureSpace& space, const FieldTable& table, const Vector& J);
+/// M p.
+Vector pressure_mass(const PressureSpace& space, const FieldTable& table, const Vector& p);
 
 /// M⁻¹ of a pressure space. Where every function lives in one block only (one pressure an element) it is kept
 /// block by block, otherwise as one dense matrix.
@@ -44,7 +52,7 @@ class InverseMass {
 };
 
 /// One constant pressure a block: with one element a block the mean dilatation of each element.
-PressureSpace block_pressure(const FieldTable& table, double bulk_modulus);
+PressureSpace block_pressure(const FieldTable& table, double bulk_modulus, bool incompressible = false);
 /// One constant pressure a region; `region` gives the region index (0-based) of each point. A block whose
 /// points lie in several regions is handled.
 PressureSpace region_pressure(const FieldTable& table, const std::vector<int>& region, int num_regions,

@@ -7,43 +7,152 @@
 namespace polyaffine {
 namespace {
 
-struct State {
+// Residuals of the mixed form at a state.
+struct Residual {
+  Vector force;                  // R_u of the free unknowns
+  std::vector<Vector> pressure;  // κ M⁻¹ R_p of each term, empty without a pressure space
+  double relative = 0;           // ‖R_u‖ over the sum of the norms of the terms' forces
+  double dilatation = 0;         // largest |M⁻¹ R_p|
   double potential = 0;
-  double force_scale = 0;  // sum of the norms of the terms' forces
-  double residual = 0;     // relative
-  Vector gradient;
   bool admissible = true;
 };
 
-State evaluate(const EquilibriumProblem& problem, double load, const Vector& c) {
-  State out;
-  out.gradient = Vector::Zero(c.size());
-  for (const auto& term : problem.terms) {
-    const double s = term.scale(load);
-    if (s == 0) continue;
-    const EnergyValue e = term.energy->evaluate({c, term.state(load)});
-    if (term.wall && e.min_det <= 0) out.admissible = false;
-    out.potential += s * e.value;
-    out.gradient += s * e.gradient;
-    out.force_scale += std::abs(s) * e.gradient.norm();
+// What a Newton step needs of a problem at a load: all that depends on the list of terms.
+class Equations {
+ public:
+  Equations(const EquilibriumProblem& problem, double load) : problem_(problem), load_(load) {}
+
+  bool mixed() const {
+    return std::any_of(problem_.terms.begin(), problem_.terms.end(),
+                       [](const auto& term) { return term.energy->pressure_space().has_value(); });
   }
-  for (std::size_t i = 0; i < problem.fixed.size(); ++i)
-    if (problem.fixed[i]) out.gradient[static_cast<Eigen::Index>(i)] = 0;
-  if (problem.projection) out.gradient = problem.projection->Z * problem.projection->reduce(out.gradient);
-  const double norm = out.gradient.norm();
-  out.admissible &= std::isfinite(norm) && std::isfinite(out.potential);
-  out.residual = out.force_scale > 0 ? norm / out.force_scale : 0;
+
+  MixedState start(const MixedState& from) const {
+    MixedState out = from;
+    prescribe(out.c);
+    out.pressures.resize(problem_.terms.size());
+    for (std::size_t k = 0; k < problem_.terms.size(); ++k) {
+      const auto& energy = *problem_.terms[k].energy;
+      if (energy.pressure_space() && out.pressures[k].size() == 0) out.pressures[k] = energy.pressure(out.c);
+    }
+    return out;
+  }
+
+  Residual residual(const MixedState& at) const {
+    Residual out;
+    out.force = Vector::Zero(at.c.size());
+    out.pressure.resize(problem_.terms.size());
+    double scale = 0;
+    each_term([&](std::size_t k, const PotentialTerm& term, double s) {
+      const EnergyValue e = term.energy->evaluate(motion(k, at));
+      if (term.wall && e.min_det <= 0) out.admissible = false;
+      out.potential += s * e.value;
+      out.force += s * e.gradient;
+      scale += std::abs(s) * e.gradient.norm();
+      if (!term.energy->pressure_space()) return;
+      out.pressure[k] = term.energy->penalty_pressure(e.pressure_gradient);
+      const double kappa = term.energy->pressure_space()->bulk_modulus;
+      out.dilatation = std::max(out.dilatation, out.pressure[k].cwiseAbs().maxCoeff() / kappa);
+    });
+    restrict(out.force);
+    const double norm = out.force.norm();
+    out.relative = scale > 0 ? norm / scale : 0;
+    out.admissible &= std::isfinite(norm) && std::isfinite(out.potential);
+    return out;
+  }
+
+  // R_u + κ D(c)ᵀM⁻¹R_p of the free unknowns.
+  Vector condensed(const Vector& c, const Residual& r) const {
+    Vector out = r.force;
+    each_term([&](std::size_t k, const PotentialTerm& term, double s) {
+      if (r.pressure[k].size() > 0) out += s * term.energy->pressure_force(c, r.pressure[k]);
+    });
+    restrict(out);
+    return out;
+  }
+
+  void assemble(const MixedState& at, LinearSystem& system) const {
+    system.set_zero();
+    each_term([&](std::size_t k, const PotentialTerm& term, double s) {
+      term.energy->add_tangent(motion(k, at), system, s);
+    });
+  }
+
+  MixedState step(const MixedState& at, const Residual& r, Vector direction) const {
+    MixedState out{std::move(direction), r.pressure};
+    each_term([&](std::size_t k, const PotentialTerm& term, double) {
+      if (r.pressure[k].size() > 0)
+        out.pressures[k] += term.energy->penalty_pressure(term.energy->volume_change(at.c, out.c));
+    });
+    return out;
+  }
+
+ private:
+  template <class Visit>
+  void each_term(const Visit& visit) const {
+    for (std::size_t k = 0; k < problem_.terms.size(); ++k)
+      if (const double s = problem_.terms[k].scale(load_); s != 0) visit(k, problem_.terms[k], s);
+  }
+
+  Motion motion(std::size_t k, const MixedState& at) const {
+    const auto& p = at.pressures[k];
+    return {at.c, problem_.terms[k].state(load_), nullptr, p.size() > 0 ? &p : nullptr};
+  }
+
+  void restrict(Vector& force) const {
+    for (std::size_t i = 0; i < problem_.fixed.size(); ++i)
+      if (problem_.fixed[i]) force[static_cast<Eigen::Index>(i)] = 0;
+    if (const auto& p = problem_.projection) force = p->Z * p->reduce(force);
+  }
+
+  void prescribe(Vector& c) const {
+    if (const auto& p = problem_.projection) c = load_ * p->c0 + p->Z * p->reduce(c);
+    for (std::size_t i = 0; i < problem_.fixed.size(); ++i)
+      if (problem_.fixed[i]) {
+        const auto k = static_cast<Eigen::Index>(i);
+        c[k] = problem_.prescribed.size() > 0 ? load_ * problem_.prescribed[k] : 0.0;
+      }
+  }
+
+  const EquilibriumProblem& problem_;
+  double load_;
+};
+
+MixedState moved(const MixedState& from, double length, const MixedState& step) {
+  MixedState out = from;
+  out.c += length * step.c;
+  for (std::size_t k = 0; k < out.pressures.size(); ++k)
+    if (step.pressures[k].size() > 0) out.pressures[k] += length * step.pressures[k];
   return out;
 }
 
-void prescribe(const EquilibriumProblem& problem, double load, Vector& c) {
-  if (const auto& p = problem.projection) c = load * p->c0 + p->Z * p->reduce(c);
-  for (std::size_t i = 0; i < problem.fixed.size(); ++i)
-    if (problem.fixed[i]) {
-      const auto k = static_cast<Eigen::Index>(i);
-      c[k] = problem.prescribed.size() > 0 ? load * problem.prescribed[k] : 0.0;
+// The path continued to a load through its last equilibria, at most three of them (Lagrange).
+struct Path {
+  std::vector<double> loads;
+  std::vector<MixedState> states;
+
+  void add(double load, const MixedState& state) {
+    if (loads.size() == 3) {
+      loads.erase(loads.begin());
+      states.erase(states.begin());
     }
-}
+    loads.push_back(load);
+    states.push_back(state);
+  }
+  MixedState at(double load) const {
+    MixedState out = states.back();
+    for (std::size_t i = 0; i + 1 < loads.size(); ++i) {
+      double weight = 1;
+      for (std::size_t j = 0; j < loads.size(); ++j)
+        if (j != i) weight *= (load - loads[j]) / (loads[i] - loads[j]);
+      out = moved(out, weight, difference(states[i], states.back()));
+    }
+    return out;
+  }
+
+ private:
+  static MixedState difference(MixedState a, const MixedState& b) { return moved(a, -1, b); }
+};
 
 }  // namespace
 
@@ -63,67 +172,95 @@ std::string to_string(StopReason reason) {
   return "unknown";
 }
 
-NewtonReport newton(const EquilibriumProblem& problem, double load, LinearSystem& system, Vector& c,
+NewtonReport newton(const EquilibriumProblem& problem, double load, LinearSystem& system, MixedState& state,
                     const NewtonOptions& options) {
   NewtonReport report;
-  Vector x = c;
-  prescribe(problem, load, x);
-  State now = evaluate(problem, load, x);
+  const Equations equations(problem, load);
+  MixedState x = equations.start(state);
+  Residual now = equations.residual(x);
   const auto stop = [&](StopReason reason) {
     report.reason = reason;
-    if (reason == StopReason::converged) c = x;
+    if (reason == StopReason::converged) state = x;
     return report;
   };
   if (!now.admissible) return stop(StopReason::line_search_failed);
   for (;; ++report.iterations) {
-    report.residuals.push_back(now.residual);
-    if (now.residual <= options.tolerance) return stop(StopReason::converged);
+    report.residuals.push_back(now.relative);
+    if (now.relative <= options.tolerance && now.dilatation <= options.dilatation_tolerance)
+      return stop(StopReason::converged);
     if (report.iterations == options.max_iterations) return stop(StopReason::max_iterations);
 
-    system.set_zero();
-    for (const auto& term : problem.terms)
-      if (const double s = term.scale(load); s != 0)
-        term.energy->add_tangent({x, term.state(load)}, system, s);
+    equations.assemble(x, system);
     if (!system.factorise()) return stop(StopReason::singular_tangent);
     report.indefinite |= !system.positive_definite();
-    const Vector step = -system.solve(now.gradient);
-    const double slope = now.gradient.dot(step);
+    const Vector r = equations.condensed(x.c, now);
+    const MixedState step = equations.step(x, now, -system.solve(r));
+    const bool mixed = equations.mixed();
+    const double slope = mixed ? 0 : r.dot(step.c);
+    const double noise = 1e-14 * std::abs(now.potential);
 
     double length = 1;
     bool accepted = false;
-    for (int halving = 0; halving <= options.max_halvings && !accepted; ++halving, length /= 2) {
-      const Vector trial_x = x + length * step;
-      State trial = evaluate(problem, load, trial_x);
-      const double noise = 1e-14 * std::abs(now.potential);
-      const bool lower_energy = slope < 0 && trial.potential <= now.potential + 1e-4 * length * slope + noise;
-      const bool lower_residual = trial.gradient.norm() <= (1 - 1e-4 * length) * now.gradient.norm();
-      if (!trial.admissible || (!lower_energy && !lower_residual)) continue;
-      report.shortened += halving > 0;
-      x = trial_x;
-      now = std::move(trial);
-      accepted = true;
+    for (int shortening = 0; shortening <= options.max_halvings && !accepted; ++shortening) {
+      const MixedState trial = moved(x, length, step);
+      Residual next = equations.residual(trial);
+      double shorter = 0.5;
+      if (next.admissible) {
+        const double lower = 1 - 1e-4 * length;
+        accepted =
+            (slope < 0 && next.potential <= now.potential + 1e-4 * length * slope + noise) ||
+            (next.force.norm() <= lower * now.force.norm() && next.dilatation <= lower * now.dilatation);
+        if (!accepted && mixed) {
+          const Vector correction = -system.solve(equations.condensed(x.c, next));
+          accepted = correction.norm() <= (1 - length / 4) * step.c.norm();
+          const double defect = (correction - (1 - length) * step.c).norm();
+          shorter = std::clamp(0.5 * length * step.c.norm() / defect, 0.1, 0.5);
+        }
+      }
+      if (!accepted) {
+        length *= shorter;
+        continue;
+      }
+      report.shortened += shortening > 0;
+      x = trial;
+      now = std::move(next);
     }
     if (!accepted) return stop(StopReason::line_search_failed);
   }
 }
 
+NewtonReport newton(const EquilibriumProblem& problem, double load, LinearSystem& system, Vector& c,
+                    const NewtonOptions& options) {
+  MixedState state{c, {}};
+  const NewtonReport report = newton(problem, load, system, state, options);
+  if (report.converged()) c = state.c;
+  return report;
+}
+
 LoadReport load_stepping(const EquilibriumProblem& problem, LinearSystem& system, Vector& c,
                          const LoadOptions& options, double from) {
-  constexpr int kQuick = 4;  // Newton iterations up to which the next step is longer
+  constexpr double kTarget = 4;    // Newton iterations a step for which its length is kept
+  constexpr double kNearly = 0.1;  // steps may be longer by this share to make the last one no shorter
   LoadReport report;
   report.reached = from;
   double step = options.first_step;
-  double last_step = 0;
-  Vector previous = c;
+  NewtonOptions on_path = options.newton;
+  on_path.tolerance *= options.path_slack;
+  on_path.dilatation_tolerance *= options.path_slack;
+  MixedState state{c, {}};
+  Path path;
+  path.add(from, Equations(problem, from).start(state));
   while (report.reached < 1) {
-    const double load = std::min(1.0, report.reached + step);
-    Vector trial = c;
-    if (last_step > 0) trial += (load - report.reached) / last_step * (c - previous);
-    NewtonReport attempt = newton(problem, load, system, trial, options.newton);
+    const double rest = 1 - report.reached;
+    const int steps_left = static_cast<int>(std::ceil(rest / step - kNearly));
+    const double load = steps_left <= 1 ? 1 : report.reached + std::max(rest / steps_left, 0.75 * step);
+    const NewtonOptions& newton_options = load < 1 ? on_path : options.newton;
+    MixedState trial = path.at(load);
+    NewtonReport attempt = newton(problem, load, system, trial, newton_options);
     report.iterations += attempt.iterations;
-    if (!attempt.converged() && last_step > 0) {  // the extrapolated start may be inadmissible
-      trial = c;
-      attempt = newton(problem, load, system, trial, options.newton);
+    if (!attempt.converged() && report.steps > 0) {  // the extrapolated start may be inadmissible
+      trial = path.states.back();
+      attempt = newton(problem, load, system, trial, newton_options);
       report.iterations += attempt.iterations;
     }
     report.last = attempt;
@@ -137,12 +274,13 @@ LoadReport load_stepping(const EquilibriumProblem& problem, LinearSystem& system
       continue;
     }
     ++report.steps;
-    last_step = load - report.reached;
-    previous = c;
-    c = trial;
+    const double last_step = load - report.reached;
+    path.add(load, trial);
+    c = trial.c;
     report.reached = load;
     if (options.on_step) options.on_step(load, c);
-    if (attempt.iterations <= kQuick) step = std::min(options.largest_step, 2 * last_step);
+    step = std::min(options.largest_step,
+                    last_step * std::clamp(kTarget / std::max(1, attempt.iterations), 0.5, 2.0));
   }
   return report;
 }

@@ -28,8 +28,16 @@ struct EquilibriumProblem {
   std::shared_ptr<const Projection> projection;  ///< null: no linear constraints
 };
 
+/// The unknowns of the mixed form: displacement coefficients, and for each term with a pressure space its
+/// pressures (kPa; κ M⁻¹ g(c) where they are empty).
+struct MixedState {
+  Vector c;
+  std::vector<Vector> pressures;
+};
+
 struct NewtonOptions {
-  double tolerance = 1e-8;  ///< on ‖residual‖ over the sum of the norms of the terms' forces
+  double tolerance = 1e-8;             ///< on ‖residual‖ over the sum of the norms of the terms' forces
+  double dilatation_tolerance = 1e-8;  ///< on the largest |M⁻¹ R_p|
   int max_iterations = 25;
   int max_halvings = 12;
 };
@@ -50,6 +58,7 @@ struct LoadOptions {
   double first_step = 0.1;
   double smallest_step = 1e-4;
   double largest_step = 1.0;
+  double path_slack = 1;  ///< factor on the tolerances of Newton before λ = 1
   NewtonOptions newton;
   std::function<void(double load, const Vector& c)> on_step{};  ///< called at every equilibrium of the path
 };
@@ -62,14 +71,21 @@ struct LoadReport {
   bool converged() const { return reason == StopReason::converged; }
 };
 
-/// Newton's method with a line search that keeps det F > 0 and lowers the potential (Armijo) or the residual.
-/// Starts from c, which it replaces by the solution only when it converged.
+/// Newton's method on the residuals (R_u, R_p) of the mixed form, the pressures' step eliminated by
+/// (K + κ DᵀM⁻¹D) Δc = −R_u − κ DᵀM⁻¹R_p,  Δp = κ M⁻¹(R_p + D Δc):
+/// stiff volumes cost no more iterations than soft ones. Steps are shortened until det F > 0 and the next
+/// simplified Newton correction is smaller than the step (natural monotonicity test, Deuflhard 2011, §3.3.2).
+/// Terms without a pressure space have only R_u. The state is replaced by the solution only when it
+/// converged.
+NewtonReport newton(const EquilibriumProblem& problem, double load, LinearSystem& system, MixedState& state,
+                    const NewtonOptions& options = {});
+/// The same from the pressures that belong to c.
 NewtonReport newton(const EquilibriumProblem& problem, double load, LinearSystem& system, Vector& c,
                     const NewtonOptions& options = {});
 
-/// Follows the equilibrium from λ = from to λ = 1 in steps that grow where Newton is quick and are halved
-/// where it fails; each starts from the extrapolated path. On failure c is the last equilibrium, at λ =
-/// reached.
+/// Follows the equilibrium from λ = from to λ = 1 in steps that grow or shrink with the number of Newton
+/// iterations and are halved where Newton fails; each starts from the path through the last three equilibria.
+/// On failure c is the last equilibrium, at λ = reached.
 LoadReport load_stepping(const EquilibriumProblem& problem, LinearSystem& system, Vector& c,
                          const LoadOptions& options = {}, double from = 0);
 
