@@ -130,10 +130,7 @@ void run(RunOptions options) {
   polyaffine::make_folder(out);
 
   const Ventricle ventricle = build_ventricle(anatomy, protocol, protocol.reduction.method);
-  const auto nodes =
-      control_nodes(anatomy->mesh, *anatomy->coordinates,
-                    frame_layout(anatomy->mesh, *anatomy->coordinates,
-                                 protocol.reduction.ring_positions.value_or(std::vector<double>{})));
+  const auto nodes = segment_nodes(*anatomy, protocol);
   const double setup = seconds_since(start);
   const auto solve_start = std::chrono::steady_clock::now();
   HeartPath path;

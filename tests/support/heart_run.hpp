@@ -43,7 +43,7 @@ struct HeartRun {
       : protocol(std::move(of)),
         ventricle(build_ventricle(anatomy, protocol, protocol.reduction.method)),
         path(protocol.circulation ? run_beats(ventricle, protocol) : run_prescribed(ventricle, protocol)),
-        result(describe_path(ventricle, control_nodes_of(*anatomy), protocol, path)),
+        result(describe_path(ventricle, segment_nodes(*anatomy, protocol), protocol, path)),
         key(key_steps(path, protocol)) {}
 };
 

@@ -63,9 +63,9 @@ std::vector<ControlNode> control_nodes(const polyaffine::TetMesh& mesh,
   std::vector<CoordinateSample> centres;
   for (int t = 0; t < mesh.num_tets(); ++t) centres.push_back(coordinates.sample(t, Vec4::Constant(0.25)));
   std::vector<ControlNode> nodes;
-  for (int segment = 1; segment < kAhaSegments; ++segment)
-    nodes.push_back(
-        find(mesh, coordinates, centres, layout.rings[aha_ring(segment) - 1], aha_centre_angle(segment)));
+  for (auto ring = layout.rings.rbegin(); ring != layout.rings.rend(); ++ring)
+    for (int j = 0; j < ring->nodes; ++j)
+      nodes.push_back(find(mesh, coordinates, centres, ring->u, ring->node_angle(j)));
   ControlNode cap;
   const polyaffine::MeshPoint place = polyaffine::locate(mesh, cap_node_position(coordinates, layout));
   cap.tet = place.tet;

@@ -6,7 +6,7 @@
 
 namespace cardiac {
 
-/// The control node of a segment: where it lies in the mesh and its axes (columns longitudinal,
+/// The node of a control frame: where it lies in the mesh and its axes (columns longitudinal,
 /// circumferential, radial; orthonormal).
 struct ControlNode {
   int tet = 0;
@@ -15,8 +15,9 @@ struct ControlNode {
   polyaffine::Mat3 axes = polyaffine::Mat3::Identity();
 };
 
-/// One node a segment, in the middle of the wall at its ring and angle (the point of the mesh that comes
-/// closest); that of the cap on the long axis, with the axes of the cap's frame. Index 0 is segment 1.
+/// One node a frame, in the layout's order: in the middle of the wall at its ring and angle (the point of the
+/// mesh that comes closest); that of the cap on the long axis, with the axes of the cap's frame. In AHA's
+/// layout index 0 is segment 1.
 std::vector<ControlNode> control_nodes(const polyaffine::TetMesh& mesh,
                                        const VentricularCoordinates& coordinates, const FrameLayout& layout);
 

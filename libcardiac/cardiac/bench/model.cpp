@@ -51,7 +51,7 @@ const polyaffine::LagrangeBasis& BenchModel::elements() const {
 }
 
 int BenchModel::control_nodes() const {
-  return reduced() ? kAhaSegments : 0;
+  return reduced() ? ventricle_.discretisation.layout.num_nodes() : 0;
 }
 
 double BenchModel::cavity_at_rest() const {

@@ -38,6 +38,7 @@ struct Discretisation {
   std::shared_ptr<const polyaffine::Basis> basis;
   std::shared_ptr<const polyaffine::FrameBasis> frame_basis;  ///< the basis, if reduced; null for full order
   FrameLayout layout;                                         ///< of the control frames, if reduced
+  std::vector<int> region;                                    ///< frame that owns each tet, if reduced
   std::shared_ptr<const SegmentFrames> frames;  ///< null for full order and with sigmoid weights
   std::shared_ptr<const polyaffine::FrameField>
       pressure_frames;  ///< weights of pressures, a partition of unity up to the base; null for full order
@@ -50,12 +51,15 @@ struct Discretisation {
   bool sparse = false;
 };
 
-/// The reduced model: control frames of the segments with the functions that the protocol's reduction names.
+/// Where the control frames of a protocol's reduction sit. Throws InputError as frame_layout.
+FrameLayout protocol_layout(const Anatomy& anatomy, const Protocol& protocol);
+
+/// The reduced model: control frames of the layout with the functions that the protocol's reduction names.
 /// Weights are tents in the ventricular coordinates (SegmentFrames), or sigmoids of the geodesic distance to
-/// the border of each segment (polyaffine::RegionFrames) about the deepest vertex of the segment; the latter
+/// the border of each region (polyaffine::RegionFrames) about the deepest vertex of the region; the latter
 /// are clamped by the factor d = s (2 − s), s = (1 − u)/(1 − u_b), from 0 at the base (u = 1) to 1 at the
-/// basal ring u_b. With sigmoid weights the anatomy must outlive the result. Throws InputError when a segment
-/// has no interior vertex.
+/// last ring u_b. With sigmoid weights the anatomy must outlive the result. Throws InputError when a region
+/// has no interior vertex, or as frame_layout.
 Discretisation reduced_discretisation(const Anatomy& anatomy, const Protocol& protocol);
 /// Linear or quadratic finite elements on the whole mesh.
 Discretisation full_discretisation(const Anatomy& anatomy, const Protocol& protocol);
@@ -66,7 +70,7 @@ void add_surface_points(const Anatomy& anatomy, const Protocol& protocol,
                         Discretisation& discretisation);
 
 /// The pressure space of a discretisation, over the points of its deformation table.
-polyaffine::PressureSpace pressure_space(const Anatomy& anatomy, const Discretisation& discretisation,
+polyaffine::PressureSpace pressure_space(const Discretisation& discretisation,
                                          const polyaffine::FieldTable& table, const Protocol& protocol);
 
 }  // namespace cardiac

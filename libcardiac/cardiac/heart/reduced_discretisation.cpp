@@ -37,12 +37,14 @@ std::vector<Monomial> monomials(const Protocol& protocol) {
 }
 
 // Functions of every frame. Within a ring the tents interpolate linearly, so Σ_j C_j(ψ) (ψ − ψ_j) = 0: of the
-// functions with a single factor c those of one frame depend on the others', and the last frame of each ring
-// goes without.
-std::vector<std::vector<Monomial>> independent(int num_frames, const std::vector<Monomial>& all) {
-  std::vector<std::vector<Monomial>> out(num_frames, all);
-  for (const int last : {5, 11, 15, 22})
-    if (last < num_frames) std::erase_if(out[last], [](const Monomial& m) { return m[1] == 1; });
+// functions with a single factor c those of one frame depend on the others', and the last frame of each ring,
+// that of the base frames included, goes without.
+std::vector<std::vector<Monomial>> independent(const SegmentFrames& frames,
+                                               const std::vector<Monomial>& all) {
+  std::vector<std::vector<Monomial>> out(frames.num_frames(), all);
+  const auto thin = [&](int last) { std::erase_if(out[last], [](const Monomial& m) { return m[1] == 1; }); };
+  for (const FrameRing& ring : frames.layout().rings) thin(ring.first_frame + ring.nodes - 1);
+  if (frames.num_frames() > frames.layout().num_nodes()) thin(frames.num_frames() - 1);
   return out;
 }
 
@@ -83,25 +85,28 @@ Cells tent_cells(const Anatomy& anatomy, const SegmentFrames& frames, const Wall
   return out;
 }
 
-// The segments themselves; in the cap, where angles mean little, the place across the axis.
-Cells segment_cells(const Anatomy& anatomy, const WallPoints& candidates) {
+// The regions themselves; in the cap, where angles mean little, the place across the axis.
+Cells region_cells(const Anatomy& anatomy, const Discretisation& d, const WallPoints& candidates) {
   const VentricularCoordinates& coordinates = *anatomy.coordinates;
+  std::vector<double> centre(d.layout.num_nodes(), 0.0);
+  for (const FrameRing& ring : d.layout.rings)
+    for (int j = 0; j < ring.nodes; ++j) centre[ring.first_frame + j] = ring.node_angle(j);
   Cells out{{}, Points(3, candidates.barycentric.cols())};
-  Points low = Points::Constant(3, kAhaSegments, HUGE_VAL);
+  Points low = Points::Constant(3, d.layout.num_nodes(), HUGE_VAL);
   Points high = -low;
   for (Eigen::Index q = 0; q < out.place.cols(); ++q) {
     const int tet = candidates.tet[q];
-    const int segment = anatomy.segment[tet];
+    const int region = d.region[tet];
     const CoordinateSample at = coordinates.sample(tet, candidates.barycentric.col(q));
-    const double from_centre = std::remainder(at.psi - aha_centre_angle(segment), 2 * polyaffine::kPi);
-    const Vec3 d = coordinates.position(tet, candidates.barycentric.col(q)) - coordinates.base_centre();
-    out.cell.push_back(segment - 1);
-    out.place.col(q) = segment == kAhaSegments
-                           ? Vec3(d.dot(coordinates.anterior()),
-                                  d.dot(coordinates.axis().cross(coordinates.anterior())), at.t)
+    const double from_centre = std::remainder(at.psi - centre[region], 2 * polyaffine::kPi);
+    const Vec3 X = coordinates.position(tet, candidates.barycentric.col(q)) - coordinates.base_centre();
+    out.cell.push_back(region);
+    out.place.col(q) = region == d.layout.cap()
+                           ? Vec3(X.dot(coordinates.anterior()),
+                                  X.dot(coordinates.axis().cross(coordinates.anterior())), at.t)
                            : Vec3(at.u, from_centre, at.t);
-    low.col(segment - 1) = low.col(segment - 1).cwiseMin(out.place.col(q));
-    high.col(segment - 1) = high.col(segment - 1).cwiseMax(out.place.col(q));
+    low.col(region) = low.col(region).cwiseMin(out.place.col(q));
+    high.col(region) = high.col(region).cwiseMax(out.place.col(q));
   }
   for (Eigen::Index q = 0; q < out.place.cols(); ++q) {
     const int k = out.cell[q];
@@ -110,7 +115,7 @@ Cells segment_cells(const Anatomy& anatomy, const WallPoints& candidates) {
   return out;
 }
 
-// Tent cell, or else segment, of each point of a surface.
+// Tent cell, or else region, of each point of a surface.
 std::vector<int> surface_cells(const Anatomy& anatomy, const Discretisation& discretisation,
                                const polyaffine::SurfacePoints& points) {
   std::vector<int> out;
@@ -118,7 +123,7 @@ std::vector<int> surface_cells(const Anatomy& anatomy, const Discretisation& dis
     const CoordinateSample at =
         anatomy.coordinates->sample(points.tet[q], points.barycentric.col(static_cast<Eigen::Index>(q)));
     out.push_back(discretisation.frames ? discretisation.frames->cell(at.u, at.psi).index
-                                        : anatomy.segment[points.tet[q]]);
+                                        : discretisation.region[points.tet[q]]);
   }
   return out;
 }
@@ -129,10 +134,10 @@ void add_tent_basis(const Anatomy& anatomy, const Protocol& protocol, Discretisa
   out.pressure_frames = std::make_shared<SegmentFrames>(anatomy.coordinates, out.layout, false);
   const bool heart_axes = protocol.reduction.axes == protocol::Axes::heart;
   std::vector<FrameFunctions> functions;
-  const auto own = independent(out.frames->num_frames(), monomials(protocol));
+  const auto own = independent(*out.frames, monomials(protocol));
   for (int i = 0; i < out.frames->num_frames(); ++i) {
-    FrameFunctions f{own[i], heart_axes && i != kAhaSegments - 1};
-    if (i >= kAhaSegments) std::erase_if(f.monomials, [](const Monomial& m) { return m[0] == 0; });
+    FrameFunctions f{own[i], heart_axes && i != out.layout.cap()};
+    if (i >= out.layout.num_nodes()) std::erase_if(f.monomials, [](const Monomial& m) { return m[0] == 0; });
     functions.push_back(f);
   }
   out.frame_basis = std::make_shared<polyaffine::FrameBasis>(out.frames, functions);
@@ -146,12 +151,11 @@ Vector clamp_factor(const VentricularCoordinates& coordinates, double basal_ring
 
 void add_sigmoid_basis(const Anatomy& anatomy, const Protocol& protocol, Discretisation& out) {
   const polyaffine::TetMesh& mesh = anatomy.mesh;
-  std::vector<int> label;
-  for (const int s : anatomy.segment) label.push_back(s - 1);
+  const int n = out.layout.num_nodes();
   const polyaffine::Matrix distances =
-      polyaffine::normalised_border_distances(polyaffine::EikonalSolver(mesh), label, kAhaSegments);
-  std::vector<polyaffine::ControlNode> nodes(kAhaSegments);
-  for (int i = 0; i < kAhaSegments; ++i) {
+      polyaffine::normalised_border_distances(polyaffine::EikonalSolver(mesh), out.region, n);
+  std::vector<polyaffine::ControlNode> nodes(n);
+  for (int i = 0; i < n; ++i) {
     Eigen::Index deepest = 0;
     distances.row(i).minCoeff(&deepest);
     Eigen::Index corner = 0, tet = 0;
@@ -163,18 +167,27 @@ void add_sigmoid_basis(const Anatomy& anatomy, const Protocol& protocol, Discret
       mesh, distances, polyaffine::RegionWeightOptions{.sharpness = protocol.reduction.sigmoid_slope});
   const std::shared_ptr<const LagrangeBasis> geometry(anatomy.coordinates, &anatomy.coordinates->space());
   const auto frames = std::make_shared<polyaffine::RegionFrames>(
-      geometry, weights, nodes, out.layout.length, clamp_factor(*anatomy.coordinates, out.layout.rings[2]));
+      geometry, weights, nodes, out.layout.length,
+      clamp_factor(*anatomy.coordinates, out.layout.rings.back().u));
   out.pressure_frames = std::make_shared<polyaffine::RegionFrames>(frames->without_clamp());
   out.frame_basis = std::make_shared<polyaffine::FrameBasis>(
-      frames, std::vector<FrameFunctions>(kAhaSegments, {monomials(protocol), false}));
+      frames, std::vector<FrameFunctions>(n, {monomials(protocol), false}));
 }
 
 }  // namespace
 
+FrameLayout protocol_layout(const Anatomy& anatomy, const Protocol& protocol) {
+  const auto& reduction = protocol.reduction;
+  RingOptions options{reduction.ring_nodes, reduction.ring_positions.value_or(std::vector<double>{}),
+                      reduction.ring_angles_deg.value_or(std::vector<double>{})};
+  for (double& angle : options.angles) angle *= polyaffine::kPi / 180;
+  return frame_layout(anatomy.mesh, *anatomy.coordinates, options);
+}
+
 Discretisation reduced_discretisation(const Anatomy& anatomy, const Protocol& protocol) {
   Discretisation out;
-  out.layout = frame_layout(anatomy.mesh, *anatomy.coordinates,
-                            protocol.reduction.ring_positions.value_or(std::vector<double>{}));
+  out.layout = protocol_layout(anatomy, protocol);
+  out.region = region_tets(anatomy.mesh, *anatomy.coordinates, out.layout);
   const bool sigmoid = protocol.reduction.weights == protocol::Weights::sigmoid;
   (sigmoid ? add_sigmoid_basis : add_tent_basis)(anatomy, protocol, out);
   out.basis = out.frame_basis;
@@ -184,7 +197,7 @@ Discretisation reduced_discretisation(const Anatomy& anatomy, const Protocol& pr
   const LagrangeBasis& geometry = anatomy.coordinates->space();
   const WallPoints candidates = geometry.wall_points(kCandidateDegree);
   const Cells cells =
-      sigmoid ? segment_cells(anatomy, candidates) : tent_cells(anatomy, *out.frames, candidates);
+      sigmoid ? region_cells(anatomy, out, candidates) : tent_cells(anatomy, *out.frames, candidates);
   out.points = protocol.reduction.integration == protocol::Integration::gauss
                    ? polyaffine::group_cells(candidates, cells.cell)
                    : polyaffine::compress_cells(candidates, cells.cell, cells.place, kCellDegree);
@@ -194,7 +207,7 @@ Discretisation reduced_discretisation(const Anatomy& anatomy, const Protocol& pr
   return out;
 }
 
-polyaffine::PressureSpace pressure_space(const Anatomy& anatomy, const Discretisation& discretisation,
+polyaffine::PressureSpace pressure_space(const Discretisation& discretisation,
                                          const polyaffine::FieldTable& table, const Protocol& protocol) {
   const double kappa = protocol.tissue.bulk_modulus_kPa;
   if (!discretisation.frame_basis) return polyaffine::block_pressure(table, kappa);
@@ -204,16 +217,16 @@ polyaffine::PressureSpace pressure_space(const Anatomy& anatomy, const Discretis
   const Space space = *protocol.reduction.pressure_space;
   if (space == Space::segment) {
     std::vector<int> region;
-    for (std::size_t q = 0; q < points.tet.size(); ++q) region.push_back(anatomy.segment[points.tet[q]] - 1);
-    return polyaffine::region_pressure(table, region, kAhaSegments, kappa);
+    for (const int t : points.tet) region.push_back(discretisation.region[t]);
+    return polyaffine::region_pressure(table, region, discretisation.layout.num_nodes(), kappa);
   }
   std::vector<Monomial> functions{{0, 0, 0}, {0, 0, 1}};
   if (space != Space::segment_depth) functions.insert(functions.end(), {{1, 0, 0}, {0, 1, 0}});
   if (space == Space::segment_bilinear) functions.insert(functions.end(), {{1, 0, 1}, {0, 1, 1}});
-  const auto own =
-      discretisation.frames ? independent(kAhaSegments, functions) : std::vector(kAhaSegments, functions);
-  const polyaffine::Matrix values =
-      polyaffine::frame_values(*discretisation.pressure_frames, own, points.tet, points.barycentric);
+  const auto& frames = *discretisation.pressure_frames;
+  const auto* tents = dynamic_cast<const SegmentFrames*>(&frames);
+  const auto own = tents ? independent(*tents, functions) : std::vector(frames.num_frames(), functions);
+  const polyaffine::Matrix values = polyaffine::frame_values(frames, own, points.tet, points.barycentric);
   return polyaffine::dense_pressure(table, values, kappa);
 }
 

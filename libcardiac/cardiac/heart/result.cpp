@@ -84,6 +84,12 @@ KeySteps key_steps(const HeartPath& path, const Protocol& protocol) {
   return out;
 }
 
+std::vector<ControlNode> segment_nodes(const Anatomy& anatomy, const Protocol& protocol) {
+  FrameLayout layout = protocol_layout(anatomy, protocol);
+  if (!layout.follows_segments) layout = frame_layout(anatomy.mesh, *anatomy.coordinates);
+  return control_nodes(anatomy.mesh, *anatomy.coordinates, layout);
+}
+
 BeatResult describe_path(const Ventricle& ventricle, const std::vector<ControlNode>& nodes,
                          const Protocol& protocol, const HeartPath& path) {
   BeatResult out;
@@ -94,7 +100,7 @@ BeatResult describe_path(const Ventricle& ventricle, const std::vector<ControlNo
   out.mesh_vertices = anatomy.mesh.num_points();
   out.mesh_tets = anatomy.mesh.num_tets();
   out.dofs = d.num_unknowns;
-  out.control_nodes = d.sparse ? 0 : kAhaSegments;
+  out.control_nodes = d.sparse ? 0 : d.layout.num_nodes();
   out.integration_points = static_cast<int>(d.points.tet.size());
   out.beats = path.beats;
   out.time_steps = path.time_steps;
@@ -120,7 +126,7 @@ BeatResult describe_path(const Ventricle& ventricle, const std::vector<ControlNo
   const auto gradients = [&](const Vector& c) {
     return polyaffine::evaluate_field(ventricle.wall->table(), c);
   };
-  const auto* frames = dynamic_cast<const polyaffine::FrameBasis*>(d.basis.get());
+  const auto* frames = d.layout.follows_segments ? d.frame_basis.get() : nullptr;
 
   const Matrix F_ed = gradients(path.steps[key.ed].c);
   for (const HeartState& state : path.outputs) {

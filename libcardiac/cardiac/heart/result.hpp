@@ -14,8 +14,13 @@ struct KeySteps {
 };
 KeySteps key_steps(const HeartPath& path, const Protocol& protocol);
 
-/// What a path means in segments, volumes and pressures. Wall times, plan and protocol warnings are the
-/// caller's.
+/// A node for the affine map of every AHA segment: its control node where the protocol's frames belong to the
+/// segments, otherwise the one it would have then.
+std::vector<ControlNode> segment_nodes(const Anatomy& anatomy, const Protocol& protocol);
+
+/// What a path means in segments, volumes and pressures, with nodes from segment_nodes. The affine maps of
+/// the segments are those of their frames; for full order and for frames that do not belong to the segments,
+/// those that fit the motion of each segment best. Wall times, plan and protocol warnings are the caller's.
 BeatResult describe_path(const Ventricle& ventricle, const std::vector<ControlNode>& nodes,
                          const Protocol& protocol, const HeartPath& path);
 

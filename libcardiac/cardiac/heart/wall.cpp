@@ -47,7 +47,7 @@ LawPointer passive_law(const protocol::Tissue& t, const FibreAxes& fibres,
 std::vector<double> apical_factor(const Anatomy& anatomy, const Discretisation& discretisation,
                                   double at_apex) {
   const auto& points = discretisation.points;
-  const double reach = discretisation.layout.thickness[0] / anatomy.coordinates->arc_length();
+  const double reach = discretisation.layout.cap_thickness / anatomy.coordinates->arc_length();
   std::vector<double> factor;
   for (std::size_t q = 0; q < points.tet.size(); ++q) {
     const double s =
@@ -110,7 +110,7 @@ std::shared_ptr<const polyaffine::FieldEnergy> build_wall(const Anatomy& anatomy
     if (discretisation.frame_basis && *protocol.reduction.pressure_space == protocol::PressureSpace::none)
       laws.push_back(std::make_shared<polyaffine::QuadraticVolumetric>(tissue.bulk_modulus_kPa));
     else
-      pressure = pressure_space(anatomy, discretisation, table, protocol);
+      pressure = pressure_space(discretisation, table, protocol);
     // What few pressures do not see, local changes of volume, a small part of the bulk modulus keeps in
     // check.
     if (const double local = protocol.reduction.local_bulk_modulus_kPa;

@@ -59,7 +59,8 @@ Table reduction_table() {
   TableBuilder table("reduction", "Unknowns and integration of the mechanics.", &Protocol::reduction);
   table
       .key("method", &Reduction::method,
-           {.meaning = "polyaffine: one control frame a segment, enriched; fem: full-order finite elements"})
+           {.meaning = "polyaffine: control frames, one a segment unless ring_nodes says otherwise, "
+                       "enriched; fem: full-order finite elements"})
       .key(
           "preset", &Reduction::preset,
           {.meaning = "set of enrichment and pressure_space: fast {tt; segment_depth}, accurate {tt, lt, ct, "
@@ -69,8 +70,8 @@ Table reduction_table() {
                "it"})
       .key("weights", &Reduction::weights,
            {.meaning =
-                "influence of a segment: tents (piecewise linear in ventricular coordinates) or sigmoid "
-                "(of the signed geodesic distance to the region's border)",
+                "influence of a control node: tents (piecewise linear in ventricular coordinates) or sigmoid "
+                "(of the signed geodesic distance to the border of the node's region)",
             .source = "sigmoid: Desrues, Delingette, Sermesant"})
       .key("sigmoid_slope", &Reduction::sigmoid_slope,
            {.range = above_zero(20),
@@ -85,7 +86,7 @@ Table reduction_table() {
             .absent = "from preset"})
       .key("pressure_space", &Reduction::pressure_space,
            {.meaning =
-                "functions of the volumetric pressure in each segment: none (every integration point on "
+                "functions of the volumetric pressure of each control node: none (every integration point on "
                 "its own), segment {1}, segment_depth {1, t}, segment_linear {1, l, c, t}, "
                 "segment_bilinear {1, l, c, t, lt, ct}",
             .absent = "from preset"})
@@ -97,10 +98,25 @@ Table reduction_table() {
       .key("axes", &Reduction::axes,
            {.meaning = "components of the unknowns along heart axes (longitudinal, "
                        "circumferential, radial) or Cartesian axes"})
+      .key("ring_nodes", &Reduction::ring_nodes,
+           {.range = {3, 60},
+            .meaning =
+                "control nodes of each ring from apex to base, beside the one of the cap; [4, 6, 6] with "
+                "ring_angles_deg 0 are the AHA segments. Strain is told by AHA segment with any number; "
+                "the affine parameters are then those that fit each segment best",
+            .source = "AHA, Cerqueira 2002"})
       .key("ring_positions", &Reduction::ring_positions,
            {.range = {0, 1},
             .meaning = "apicobasal coordinate of each ring of control nodes, 0 apex to 1 base, rising",
-            .absent = "from the centres of the segments"})
+            .absent =
+                "from the centres of the AHA segments; with other ring_nodes k/(n + 1/2) for ring k of n"})
+      .key(
+          "ring_angles_deg", &Reduction::ring_angles_deg,
+          {.unit = "deg",
+           .range = {-180, 180},
+           .meaning = "angle about the long axis of the first node of each ring, 0 anterior, growing towards "
+                      "the septum; the others follow at equal steps",
+           .absent = "0 for every ring"})
       .key("integration", &Reduction::integration,
            {.meaning = "integration points: cells (few points that keep polynomials between the kinks of the "
                        "weights exact) or gauss (in every tetrahedron)"})

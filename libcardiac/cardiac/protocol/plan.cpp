@@ -47,6 +47,18 @@ PlanItem circulation_item(const Protocol& protocol) {
   return {"circulation", false, protocol.cavities ? "the pressure is prescribed" : "no table [circulation]"};
 }
 
+PlanItem reduction_item(const Reduction& reduction) {
+  std::string why = "reduction.method = " + name_of(reduction.method);
+  if (reduction.method == Method::fem) return {"reduction", false, why};
+  int nodes = 1;
+  std::string rings = "the cap";
+  for (const int n : reduction.ring_nodes) {
+    nodes += n;
+    rings += " + " + std::to_string(n);
+  }
+  return {"reduction", true, why + ", " + std::to_string(nodes) + " control nodes (" + rings + ")"};
+}
+
 PlanItem output_item(std::string part, bool wanted, const std::string& key) {
   return {std::move(part), wanted, key + (wanted ? " = true" : " = false")};
 }
@@ -68,7 +80,7 @@ std::vector<PlanItem> plan(const Protocol& protocol, bool verify) {
       {"regions", !protocol.regions.empty(),
        protocol.regions.empty() ? "no table [[region]]: every segment is alike"
                                 : std::to_string(protocol.regions.size()) + " named by [[region]]"},
-      {"reduction", reduced, method},
+      reduction_item(protocol.reduction),
       {"full order", !reduced || verify, reduced && verify ? "--verify" : method}};
   if (reduced && verify) {
     items.push_back({"verification", true, "--verify: full order at end diastole and end systole"});

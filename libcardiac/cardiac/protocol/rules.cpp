@@ -56,6 +56,23 @@ void check_anatomy(const Anatomy& anatomy, const Place& place) {
   }
 }
 
+void check_rings(const Reduction& reduction, const Place& place) {
+  const std::size_t n = reduction.ring_nodes.size();
+  if (n == 0) fail(place, "reduction.ring_nodes", "found an empty list, expected at least one ring");
+  const std::string each = std::to_string(n) + (n == 1 ? " ring" : " rings") + " of reduction.ring_nodes";
+  if (reduction.ring_positions) {
+    const auto& u = *reduction.ring_positions;
+    if (u.size() != n || u.front() <= 0 || u.back() >= 1 ||
+        std::ranges::adjacent_find(u, std::greater_equal<>()) != u.end())
+      fail(place, "reduction.ring_positions",
+           "expected positions that rise between apex (0) and base (1), one for each of the " + each);
+  }
+  if (reduction.ring_angles_deg && reduction.ring_angles_deg->size() != n)
+    fail(place, "reduction.ring_angles_deg",
+         "found " + std::to_string(reduction.ring_angles_deg->size()) +
+             " angles, expected one for each of the " + each);
+}
+
 void check_reduction(const Reduction& reduction, const Place& place) {
   std::set<std::string> seen;
   for (const std::string& monomial : reduction.enrichment.value_or(std::vector<std::string>{})) {
@@ -68,10 +85,7 @@ void check_reduction(const Reduction& reduction, const Place& place) {
                "\"lt\", \"ctt\"");
     }
   }
-  const auto rings = reduction.ring_positions.value_or(std::vector<double>{0});
-  if (rings.empty() || std::ranges::adjacent_find(rings, std::greater_equal<>()) != rings.end()) {
-    fail(place, "reduction.ring_positions", "expected positions that rise from apex (0) to base (1)");
-  }
+  check_rings(reduction, place);
 }
 
 void check_activity(const Protocol& protocol, const Place& place) {

@@ -44,7 +44,9 @@ struct Reduction {
   std::optional<PressureSpace> pressure_space;         ///< set by the preset when the file does not name it
   double local_bulk_modulus_kPa = 6;  ///< part of the bulk modulus that acts at every integration point
   Axes axes = Axes::heart;
-  std::optional<std::vector<double>> ring_positions;  ///< apicobasal, 0 apex to 1 base; absent: by segment
+  std::vector<int> ring_nodes = {4, 6, 6};  ///< control nodes of each ring, apex to base, beside the cap's
+  std::optional<std::vector<double>> ring_positions;   ///< apicobasal, 0 apex to 1 base
+  std::optional<std::vector<double>> ring_angles_deg;  ///< rotational, of each ring's first node
   Integration integration = Integration::cells;
   int element_order = 2;  ///< of the full-order model
 };

@@ -51,7 +51,7 @@ json other_value(const cardiac::protocol::Key& key, const json& standard) {
     case Kind::numbers:
       return json::array({0.25});
     case Kind::wholes:
-      return json::array({2, 3});
+      return json::array({3, 4});
     case Kind::texts:
       return json::array({"lt"});
     case Kind::vector:

@@ -15,8 +15,8 @@ TEST(Parse, ReadsValuesOfEveryType) {
   const auto protocol = parsed(
       "[mesh]\nfile = \"../heart.vtu\"\nlength_unit = \"cm\"\nendo_label = 7\n"
       "[anatomy]\nanterior_direction = [1, 0, 0.5]\n"
-      "[reduction]\npressure_space = \"segment_linear\"\nenrichment = [\"tt\", \"lt\"]\nring_positions = [0, "
-      "0.5]\n"
+      "[reduction]\npressure_space = \"segment_linear\"\nenrichment = [\"tt\", \"lt\"]\nring_positions = "
+      "[0.2, 0.5]\nring_nodes = [3, 8]\nring_angles_deg = [0, 22.5]\n"
       "[tissue]\nC_kPa = 3\n[fibres]\n[activation]\nmode = \"sites\"\nsite_segments = [3, 9]\n"
       "sites_mm = [[1, 2, 3]]\n[contraction]\n[circulation]\n[output]\nfigures = false\n");
   EXPECT_EQ(protocol.mesh.file, "../heart.vtu");
@@ -26,7 +26,9 @@ TEST(Parse, ReadsValuesOfEveryType) {
   EXPECT_EQ(protocol.anatomy.anterior_direction, (cardiac::protocol::Vector3{1, 0, 0.5}));
   EXPECT_EQ(protocol.reduction.pressure_space, cardiac::protocol::PressureSpace::segment_linear);
   EXPECT_EQ(protocol.reduction.enrichment, (std::vector<std::string>{"tt", "lt"}));
-  EXPECT_EQ(protocol.reduction.ring_positions, (std::vector<double>{0, 0.5}));
+  EXPECT_EQ(protocol.reduction.ring_positions, (std::vector<double>{0.2, 0.5}));
+  EXPECT_EQ(protocol.reduction.ring_nodes, (std::vector<int>{3, 8}));
+  EXPECT_EQ(protocol.reduction.ring_angles_deg, (std::vector<double>{0, 22.5}));
   EXPECT_EQ(protocol.tissue.C_kPa, 3);
   EXPECT_EQ(protocol.activation->site_segments, (std::vector<int>{3, 9}));
   EXPECT_EQ(protocol.activation->sites_mm, (std::vector<cardiac::protocol::Vector3>{{1, 2, 3}}));

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <set>
 
 #include <cardiac/protocol/plan.hpp>
@@ -27,6 +28,15 @@ TEST(Plan, BeatBuildsItsParts) {
     }
     EXPECT_EQ(builds(items, "regions"), std::string(name) == "infarct_lv");
   }
+}
+
+TEST(Plan, CountsTheControlNodes) {
+  const auto why = [](const std::vector<std::string>& overrides) {
+    const auto items = plan(parsed(kPassive, overrides));
+    return std::ranges::find(items, "reduction", &cardiac::PlanItem::part)->why;
+  };
+  EXPECT_THAT(why({}), testing::HasSubstr("17 control nodes (the cap + 4 + 6 + 6)"));
+  EXPECT_THAT(why({"reduction.ring_nodes=[12, 8]"}), testing::HasSubstr("21 control nodes"));
 }
 
 TEST(Plan, NamedButIdlePartsAreLeftOut) {

@@ -29,9 +29,13 @@ TEST(Rules, EnrichmentAndRings) {
     EXPECT_THAT(refusal(kPassive, {std::string("reduction.enrichment=") + bad}),
                 HasSubstr("letters l, c, t"));
   }
-  for (const char* bad : {"[]", "[0, 0]", "[0.5, 0.2]"}) {
+  for (const char* bad : {"[]", "[0.2, 0.2, 0.5]", "[0.5, 0.2, 0.8]", "[0, 0.5, 0.8]", "[0.2, 0.5]"}) {
     EXPECT_THAT(refusal(kPassive, {std::string("reduction.ring_positions=") + bad}), HasSubstr("rise"));
   }
+  EXPECT_NO_THROW(parsed(kPassive, {"reduction.ring_positions=[0.2, 0.5]", "reduction.ring_nodes=[4, 6]"}));
+  EXPECT_THAT(refusal(kPassive, {"reduction.ring_nodes=[]"}), HasSubstr("at least one ring"));
+  EXPECT_THAT(refusal(kPassive, {"reduction.ring_nodes=[4, 2]"}), HasSubstr("at least 3"));
+  EXPECT_THAT(refusal(kPassive, {"reduction.ring_angles_deg=[0, 30]"}), HasSubstr("each of the 3 rings"));
 }
 
 TEST(Rules, PartsThatNeedOthers) {
