@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <cardiac/bench/bench.hpp>
+#include <cardiac/bench/bench_figure.hpp>
 #include <cardiac/bench/bench_table.hpp>
 #include <polyaffine/core/atomic_file.hpp>
 
@@ -63,6 +64,7 @@ void bench(const BenchOptions& options) {
     results.push_back(run_scene(scene, context));
     polyaffine::write_atomically(options.out / "bench.csv", bench_csv(results));
     polyaffine::write_atomically(options.out / "bench.md", bench_markdown(results));
+    polyaffine::write_atomically(options.out / "bench.svg", bench_svg(results));
   }
 }
 

@@ -66,7 +66,7 @@ std::vector<std::array<int, 3>> surface_triangles(const StructuredCells& cells) 
 
 }  // namespace
 
-StructuredMesh structured_ellipsoid(const TruncatedEllipsoid& shape, const StructuredCells& cells) {
+CurvedMesh structured_ellipsoid(const TruncatedEllipsoid& shape, const StructuredCells& cells) {
   check_shape(shape);
   check_cells(cells);
   const int layer = 1 + cells.longitudinal * cells.around;
@@ -109,7 +109,7 @@ StructuredMesh structured_ellipsoid(const TruncatedEllipsoid& shape, const Struc
     surface.triangles.col(static_cast<Eigen::Index>(f)) = faces[f].first;
     surface.labels.push_back(faces[f].second);
   }
-  StructuredMesh out{polyaffine::TetMesh(points, all, {}, surface), {}};
+  CurvedMesh out{polyaffine::TetMesh(points, all, {}, surface), {}};
   for (Eigen::Index t = 0; t < all.cols(); ++t)
     for (int a = 0; a < 4; ++a)
       for (int b = 0; b < 4; ++b)

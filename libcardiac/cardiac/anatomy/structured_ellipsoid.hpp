@@ -5,8 +5,8 @@
 
 namespace cardiac {
 
-/// A mesh and the midpoints of all its edges on the parameter lines of the shape.
-struct StructuredMesh {
+/// A mesh with the midpoints that bend its quadratic edges.
+struct CurvedMesh {
   polyaffine::TetMesh mesh;
   polyaffine::EdgeMidpoints midpoints;
 };
@@ -19,9 +19,9 @@ struct StructuredCells {
 /// Tetrahedra along the parameter lines X = (r_s sin θ cos ψ, r_s sin θ sin ψ, −r_l cos θ) of the wall, with
 /// r_s, r_l linear in the depth t and θ from 0 at the apex in equal steps to the base plane: triangles of the
 /// (θ, ψ) surface, their diagonals alternating, carried through the wall as prisms that are cut in three
-/// (Dompierre et al. 1999). It follows the wall with far fewer elements than an unstructured mesh can, labels
-/// as in idealised.hpp. Throws InputError for a wrong shape, fewer than 2 cells from apex to base, an odd
-/// number or fewer than 4 around, or none through the wall.
-StructuredMesh structured_ellipsoid(const TruncatedEllipsoid& shape, const StructuredCells& cells);
+/// (Dompierre et al. 1999), all edges bent along the parameter lines. It follows the wall with far fewer
+/// elements than an unstructured mesh can, labels as in idealised.hpp. Throws InputError for a wrong shape,
+/// fewer than 2 cells from apex to base, an odd number or fewer than 4 around, or none through the wall.
+CurvedMesh structured_ellipsoid(const TruncatedEllipsoid& shape, const StructuredCells& cells);
 
 }  // namespace cardiac

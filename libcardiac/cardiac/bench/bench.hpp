@@ -38,7 +38,7 @@ struct BenchContext {
 };
 
 /// Solves a scene by full-order models on several meshes, the finest one being the reference, and by reduced
-/// ones.
+/// ones, all on one thread. Times are processor times.
 SceneResult run_scene(const BenchScene& scene, const BenchContext& context);
 
 }  // namespace cardiac

@@ -43,7 +43,8 @@ std::string markdown_row(const BenchRow& row) {
 
 std::string bench_csv(const std::vector<SceneResult>& results) {
   std::string out =
-      "# One thread; times are wall time of this run. setup_s: from the mesh to the model ready to solve; "
+      "# One thread; times are processor time of this run. setup_s: from the mesh to the model ready to "
+      "solve; "
       "solve_s: all loads from zero, median of repeated short solves.\n"
       "# Errors against the finest full-order solution of the scene, at its integration points: displacement "
       "relative L2, cavity volume, Green-Lagrange normal strains averaged over segments (1-16, apex 17).\n";

@@ -1,17 +1,11 @@
 #include <cardiac/bench/model.hpp>
 
-#include <chrono>
-
 #include <cardiac/fibres/ellipsoid_fibres.hpp>
+#include <cardiac/protocol/names.hpp>
+#include <polyaffine/core/single_thread.hpp>
 
 namespace cardiac {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 WallLoad wall_load(const SceneLoad& load, const Points& X) {
   WallLoad out{load.pressure_kPa};
@@ -23,11 +17,11 @@ WallLoad wall_load(const SceneLoad& load, const Points& X) {
 
 }  // namespace
 
-BenchModel::BenchModel(const BenchScene& scene, const BenchMesh& mesh,
-                       const std::vector<std::string>& settings)
-    : scene_(scene) {
-  const auto start = Clock::now();
+BenchModel::BenchModel(const BenchScene& scene, const CurvedMesh& mesh,
+                       const std::vector<std::string>& settings) {
+  const double start = polyaffine::processor_seconds();
   const Protocol protocol = parse_protocol(scene.protocol, "scene " + scene.name, settings);
+  reduction_ = protocol.reduction;
   ExactGeometry exact;
   exact.midpoints = mesh.midpoints;
   if (protocol.fibres)
@@ -42,12 +36,20 @@ BenchModel::BenchModel(const BenchScene& scene, const BenchMesh& mesh,
   const Points X = anatomy->coordinates->space().positions(points.tet, points.barycentric);
   for (const SceneLoad& load : scene.path) path_.push_back(wall_load(load, X));
   system_ = ventricle_.make_system();
-  setup_s_ = seconds_since(start);
+  setup_s_ = polyaffine::processor_seconds() - start;
 }
 
 const polyaffine::LagrangeBasis& BenchModel::elements() const {
   const auto* own = dynamic_cast<const polyaffine::LagrangeBasis*>(ventricle_.discretisation.basis.get());
   return own ? *own : anatomy().coordinates->space();
+}
+
+std::string BenchModel::preset() const {
+  return reduced() ? protocol::name_of(reduction_.preset) : "";
+}
+
+std::string BenchModel::integration() const {
+  return reduced() ? protocol::name_of(reduction_.integration) : "";
 }
 
 int BenchModel::control_nodes() const {
@@ -59,7 +61,7 @@ double BenchModel::cavity_at_rest() const {
 }
 
 BenchModel::Solution BenchModel::solve() const {
-  const auto start = Clock::now();
+  const double start = polyaffine::processor_seconds();
   Solution out;
   out.c = polyaffine::Vector::Zero(ventricle_.num_coefficients());
   WallLoad from{0, polyaffine::Vector::Zero(path_.front().tension.size())};
@@ -73,7 +75,7 @@ BenchModel::Solution BenchModel::solve() const {
     if (!out.converged) break;
     from = to;
   }
-  out.solve_s = seconds_since(start);
+  out.solve_s = polyaffine::processor_seconds() - start;
   return out;
 }
 

@@ -18,8 +18,9 @@ struct SceneLoad {
 struct BenchScene {
   std::string name, title;
   TruncatedEllipsoid shape;
-  std::string protocol;         ///< TOML: law, fibres and which loads act
-  std::vector<SceneLoad> path;  ///< loads in numbers: equilibria reached one after the other from the unloaded wall at rest
+  std::string protocol;  ///< TOML: law, fibres and which loads act
+  std::vector<SceneLoad>
+      path;  ///< loads in numbers: equilibria reached one after the other from the unloaded wall at rest
 };
 
 /// The static scenes of the bench:

@@ -1,6 +1,7 @@
 #include <cardiac/report/axes.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <cardiac/report/text.hpp>
@@ -15,9 +16,40 @@ double round_step(double length, int intervals) {
   return 10 * power;
 }
 
+constexpr std::array<double, 3> kRoundFactors{1, 2, 5};
+
+// 1, 2 or 5 times a power of ten, at most or at least `value`, which is positive.
+double round_below(double value) {
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  double best = power;
+  for (const double factor : kRoundFactors)
+    if (factor * power <= value * (1 + 1e-9)) best = factor * power;
+  return best;
+}
+
+double round_above(double value) {
+  return 1 / round_below(1 / value);
+}
+
+std::vector<double> log_ticks(double low, double high) {
+  std::vector<double> values;
+  const bool dense = high <= 100 * low * (1 + 1e-9);
+  for (double power = std::pow(10.0, std::floor(std::log10(low))); power <= high * (1 + 1e-9); power *= 10)
+    for (const double factor : kRoundFactors)
+      if (const double tick = factor * power;
+          (dense || factor == 1) && tick >= low * (1 - 1e-9) && tick <= high * (1 + 1e-9))
+        values.push_back(tick);
+  return values;
+}
+
 }  // namespace
 
+double Axis::fraction(double value) const {
+  return logarithmic ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
+}
+
 std::vector<double> Axis::ticks() const {
+  if (logarithmic) return log_ticks(low, high);
   std::vector<double> values;
   const double first = std::ceil(low / step - 1e-6), last = std::floor(high / step + 1e-6);
   for (double i = first; i <= last; ++i) values.push_back(i * step);
@@ -25,6 +57,8 @@ std::vector<double> Axis::ticks() const {
 }
 
 std::string Axis::label(double tick) const {
+  if (logarithmic)
+    return display_text(tick, std::max(0, -static_cast<int>(std::floor(std::log10(tick) + 1e-9))));
   return display_text(tick, std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9))));
 }
 
@@ -32,7 +66,7 @@ Axis tight_axis(double low, double high, int intervals) {
   if (!std::isfinite(low) || !std::isfinite(high) || low > high) low = 0, high = 1;
   const double smallest = std::max(1e-6, 1e-6 * std::max(std::abs(low), std::abs(high)));
   if (high - low < smallest) high = low + std::max(1.0, smallest);
-  return {low, high, round_step(high - low, intervals)};
+  return {low, high, round_step(high - low, intervals), false};
 }
 
 Axis round_axis(double low, double high, int intervals) {
@@ -42,9 +76,14 @@ Axis round_axis(double low, double high, int intervals) {
   return axis;
 }
 
+Axis log_axis(double low, double high) {
+  constexpr double kMargin = 1.15;
+  if (!(low > 0) || !std::isfinite(high) || !(high >= low)) low = 0.1, high = 10;
+  return {round_below(low / kMargin), round_above(high * kMargin), 1, true};
+}
+
 DrawPoint Plot::at(double x_value, double y_value) const {
-  return {left + width * (x_value - x.low) / (x.high - x.low),
-          top + height * (1 - (y_value - y.low) / (y.high - y.low))};
+  return {left + width * x.fraction(x_value), top + height * (1 - y.fraction(y_value))};
 }
 
 void Plot::draw(Svg& svg, std::string_view x_title, std::string_view y_title, double font_size) const {

@@ -4,12 +4,16 @@
 
 namespace cardiac {
 
-/// An interval with ticks at round numbers (1, 2 or 5 times a power of ten apart).
+/// An interval with ticks at round numbers: 1, 2 or 5 times a power of ten apart, or on a logarithmic scale
+/// at powers of ten and, within two decades, at 2 and 5 times them.
 struct Axis {
   double low = 0, high = 1, step = 1;
+  bool logarithmic = false;  ///< low > 0; `step` plays no part
   std::vector<double> ticks() const;
   /// A tick's number with as many decimals as the step needs.
   std::string label(double tick) const;
+  /// Place of a value on the axis, 0 at low and 1 at high.
+  double fraction(double value) const;
 };
 
 /// The smallest axis with round ends that holds [low, high], about `intervals` ticks apart; an empty or
@@ -17,6 +21,9 @@ struct Axis {
 Axis round_axis(double low, double high, int intervals);
 /// Round ticks, but ends exactly at [low, high].
 Axis tight_axis(double low, double high, int intervals);
+/// The smallest logarithmic axis that holds [low, high] with a margin and ends at 1, 2 or 5 times a power of
+/// ten; something that can be drawn when the numbers are not positive or finite.
+Axis log_axis(double low, double high);
 
 /// A rectangle of a drawing with axes left and below.
 struct Plot {

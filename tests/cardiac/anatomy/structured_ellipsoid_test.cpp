@@ -10,14 +10,14 @@
 namespace cardiac {
 namespace {
 
-double curved_volume(const StructuredMesh& m) {
+double curved_volume(const CurvedMesh& m) {
   return polyaffine::LagrangeBasis(m.mesh, 2, m.midpoints).wall_points(5).weights.sum();
 }
 
 TEST(StructuredEllipsoid, FillsTheWallAndConverges) {
   const double exact = exact_wall_volume(land_ellipsoid());
-  const StructuredMesh coarse = structured_ellipsoid(land_ellipsoid(), {4, 8, 1});
-  const StructuredMesh fine = structured_ellipsoid(land_ellipsoid(), {8, 16, 2});
+  const CurvedMesh coarse = structured_ellipsoid(land_ellipsoid(), {4, 8, 1});
+  const CurvedMesh fine = structured_ellipsoid(land_ellipsoid(), {8, 16, 2});
   EXPECT_EQ(coarse.mesh.num_tets(), (2 * 3 + 1) * 8 * 3);
   EXPECT_EQ(coarse.mesh.num_points(), 2 * (4 * 8 + 1));
   EXPECT_LT(std::abs(curved_volume(coarse) / exact - 1), 0.005);
@@ -27,7 +27,7 @@ TEST(StructuredEllipsoid, FillsTheWallAndConverges) {
 
 TEST(StructuredEllipsoid, LabelsItsSurface) {
   const auto shape = land_ellipsoid();
-  const StructuredMesh m = structured_ellipsoid(shape, {3, 6, 2});
+  const CurvedMesh m = structured_ellipsoid(shape, {3, 6, 2});
   EXPECT_EQ(m.mesh.surface({kBase}).cols(), 6 * 2 * 2);
   EXPECT_EQ(m.mesh.surface({polyaffine::TetMesh::kUnlabelled}).cols(), 0);
   for (const int label : {kEndocardium, kEpicardium, kBase})

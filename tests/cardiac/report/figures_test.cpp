@@ -17,6 +17,7 @@
 namespace cardiac {
 namespace {
 
+using ::testing::DoubleNear;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -91,6 +92,23 @@ TEST(Axes, HaveRoundTicks) {
   EXPECT_EQ(axis.label(-15), "−15");
   EXPECT_EQ(round_axis(0, 0.23, 5).label(0.1), "0.10");
   EXPECT_THAT(tight_axis(3, 23, 4).ticks(), ElementsAre(5, 10, 15, 20));
+}
+
+TEST(Axes, CanBeLogarithmic) {
+  const Axis wide = log_axis(0.02, 60);
+  EXPECT_TRUE(wide.logarithmic);
+  EXPECT_DOUBLE_EQ(wide.low, 0.01);
+  EXPECT_DOUBLE_EQ(wide.high, 100);
+  EXPECT_THAT(wide.ticks(), ElementsAre(DoubleNear(0.01, 1e-12), DoubleNear(0.1, 1e-12), DoubleNear(1, 1e-12),
+                                        DoubleNear(10, 1e-12), DoubleNear(100, 1e-12)));
+  EXPECT_NEAR(wide.fraction(1), 0.5, 1e-12);
+  EXPECT_EQ(wide.label(wide.ticks()[0]), "0.01");
+  EXPECT_EQ(wide.label(wide.ticks()[3]), "10");
+  const Axis narrow = log_axis(1.3, 8);
+  EXPECT_THAT(narrow.ticks(), ElementsAre(DoubleNear(1, 1e-12), DoubleNear(2, 1e-12), DoubleNear(5, 1e-12),
+                                          DoubleNear(10, 1e-12)));
+  for (const Axis& axis : {log_axis(0, 1), log_axis(INFINITY, 0), log_axis(3, 3)})
+    EXPECT_TRUE(axis.low > 0 && axis.high > axis.low && std::isfinite(axis.high));
 }
 
 TEST(Axes, CanBeDrawnForNothingAndForAConstant) {

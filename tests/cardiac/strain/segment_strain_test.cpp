@@ -56,6 +56,20 @@ TEST(SegmentStrain, OfAUniformStretchIsTheSameInAllDirections) {
     expect_near(s, {0.3, 0.3, 0.3, 0, 0, 0, std::pow(1.3, 3)}, 1e-12);
 }
 
+// E = ½ (FᵀF − I) does not see a turn. A stretch along z is longitudinal at the base, radial at the apex.
+TEST(SegmentStrain, GreenLagrangeIsTheTensorInLocalAxes) {
+  for (const Mat3& E : gauge().green_lagrange(everywhere(rotation(0.7, {1, 2, -3}) * 1.2)))
+    EXPECT_LT((E - 0.22 * Mat3::Identity()).cwiseAbs().maxCoeff(), 1e-12);
+  const Mat3 stretch = Vec3(1, 1, 1.1).asDiagonal();
+  const auto E = gauge().green_lagrange(everywhere(rotation(0.4, {1, 0, 1}) * stretch));
+  for (int s = 0; s < 17; ++s) EXPECT_NEAR(E[s].trace(), 0.105, 1e-12);
+  for (int s = 0; s < 6; ++s) {
+    EXPECT_GT(E[s](0, 0), 0.09);
+    EXPECT_NEAR(E[s](1, 1), 0, 1e-4);
+  }
+  EXPECT_GT(E[16](2, 2), 0.07);
+}
+
 TEST(SegmentStrain, OfARotationIsZero) {
   for (const auto& s : strain(rotation(0.7, {1, 2, -3}))) expect_near(s, {0, 0, 0, 0, 0, 0, 1}, 1e-12);
 }

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <cardiac/bench/bench.hpp>
+
+namespace cardiac {
+
+/// bench.svg: displacement error against time of solution on logarithmic axes, one panel a scene, a colour
+/// and a shape a method, hollow where the reduced model is integrated at every Gauss point; unknowns (full
+/// order) or control nodes (reduced) written beside the marks. The reference and what did not converge are
+/// left out.
+std::string bench_svg(const std::vector<SceneResult>& results);
+
+}  // namespace cardiac

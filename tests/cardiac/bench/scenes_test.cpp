@@ -1,0 +1,60 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include <cardiac/anatomy/segments.hpp>
+#include <cardiac/anatomy/structured_ellipsoid.hpp>
+#include <cardiac/bench/scene.hpp>
+#include <cardiac/protocol/protocol.hpp>
+
+namespace cardiac {
+namespace {
+
+TEST(BenchScenes, AreTheThreeOfTheTask) {
+  std::vector<std::string> names;
+  for (const BenchScene& scene : bench_scenes()) names.push_back(scene.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"ellipsoid_passive", "end_systole", "end_systole_scar"}));
+}
+
+TEST(BenchScenes, AreValidProtocolsWithTheConstantsOfTheTask) {
+  const auto law = [](std::size_t k) { return parse_protocol(bench_scenes()[k].protocol, "scene").tissue; };
+  EXPECT_NEAR(law(0).mu_kPa, 10 / (2 * 1.49), 1e-12);
+  EXPECT_NEAR(law(0).bulk_modulus_kPa, 10 / (3 * (1 - 2 * 0.49)), 1e-9);
+  for (const std::size_t k : {1, 2}) {
+    EXPECT_EQ(law(k).law, protocol::TissueLaw::guccione);
+    EXPECT_EQ(law(k).bulk_modulus_kPa, 300);
+    EXPECT_EQ(law(k).viscosity_kPa_ms, 0);
+    EXPECT_EQ(bench_scenes()[k].path.back().pressure_kPa, 13.5);
+  }
+}
+
+// Directions about the axis: anterior +y, septum +x.
+Vec3 place(double height, double psi_deg) {
+  const double psi = psi_deg * polyaffine::kPi / 180;
+  return {8 * std::sin(psi), 8 * std::cos(psi), -17 + 22 * height};
+}
+
+TEST(BenchScenes, ScarWeakensSegmentsSevenAndEight) {
+  const auto& scar = bench_scenes()[2].path;
+  EXPECT_EQ(scar[0].tension_kPa(place(0.5, 0)), 75);
+  EXPECT_NEAR(scar[1].tension_kPa(place(0.5, 0)), 15, 1e-9);       // mid anterior
+  EXPECT_NEAR(scar[1].tension_kPa(place(0.5, 60)), 15, 1e-9);      // mid anteroseptal
+  EXPECT_NEAR(scar[1].tension_kPa(place(0.5, -60)), 75, 1e-9);     // mid anterolateral
+  EXPECT_NEAR(scar[1].tension_kPa(place(0.85, 0)), 75, 1e-9);      // basal anterior
+  EXPECT_NEAR(scar[1].tension_kPa(place(0.5, 90)), 45, 1e-9);      // half way on the border 8|9
+  EXPECT_NEAR(scar[1].tension_kPa(place(0.5, 90 + 7)), 75, 1e-9);  // the border is 6° wide
+}
+
+TEST(BenchScenes, SegmentsAreThoseOfTheMesh) {
+  const CurvedMesh mesh = structured_ellipsoid(land_ellipsoid(), {6, 12, 2});
+  const VentricularCoordinates coordinates(mesh.mesh, {}, {});
+  for (int t = 0; t < mesh.mesh.num_tets(); ++t) {
+    const Vec3 X = mesh.mesh.tet_centroid(t);
+    const auto shares = segment_shares(coordinates.long_axis_height(X), coordinates.angle(X), 0.1);
+    for (const int s : {1, 8, 16, 17})
+      EXPECT_NEAR(ellipsoid_segment_share(land_ellipsoid(), {s}, 0.1, X), shares[s - 1], 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace cardiac
