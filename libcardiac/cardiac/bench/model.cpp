@@ -15,6 +15,16 @@ WallLoad wall_load(const SceneLoad& load, const Points& X) {
   return out;
 }
 
+// The same for all methods; errors of the discretisations are above 10⁻³.
+polyaffine::LoadOptions load_options() {
+  polyaffine::LoadOptions options;
+  options.first_step = 0.25;
+  options.path_slack = 1000;
+  options.newton.tolerance = 1e-6;
+  options.newton.dilatation_tolerance = options.newton.tolerance;
+  return options;
+}
+
 }  // namespace
 
 BenchModel::BenchModel(const BenchScene& scene, const CurvedMesh& mesh,
@@ -67,7 +77,7 @@ BenchModel::Solution BenchModel::solve() const {
   WallLoad from{0, polyaffine::Vector::Zero(path_.front().tension.size())};
   for (const WallLoad& to : path_) {
     const auto problem = loaded_ventricle(ventricle_, from, to);
-    const auto report = polyaffine::load_stepping(problem, *system_, out.c);
+    const auto report = polyaffine::load_stepping(problem, *system_, out.c, load_options());
     out.reached += report.reached;
     out.load_steps += report.steps;
     out.newton_iterations += report.iterations;
