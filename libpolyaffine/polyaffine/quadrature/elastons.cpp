@@ -1,7 +1,10 @@
 #include "polyaffine/quadrature/elastons.hpp"
 
+#include <Eigen/Cholesky>
 #include <stdexcept>
 #include <string>
+
+#include <polyaffine/geometry/locate.hpp>
 
 namespace polyaffine {
 
@@ -53,6 +56,29 @@ double elaston_energy(const Elaston& elaston, const std::array<Mat3, 4>& strain,
       energy += elaston.moments(a, b) * (lambda / 2 * strain[a].trace() * strain[b].trace() +
                                          mu * strain[a].cwiseProduct(strain[b]).sum());
   return energy;
+}
+
+QuadraturePoints elaston_points(const TetMesh& mesh, const IntegrationRegions& regions, int order) {
+  const std::vector<Elaston> all = elastons(mesh, regions, order);
+  if (order == 0) return regions.points;
+  // A regular tetrahedron with unit second moments.
+  Eigen::Matrix<double, 3, 4> unit;
+  unit << 1, 1, -1, -1, 1, -1, 1, -1, 1, -1, -1, 1;
+  QuadraturePoints out{{}, Eigen::Matrix4Xd(4, 4 * all.size()), Vector(4 * all.size())};
+  Eigen::Index q = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const int tet = regions.points.tet[i];
+    const double volume = all[i].moments(0, 0);
+    const Vec3 mean = all[i].moments.block<3, 1>(1, 0) / volume;
+    const Mat3 spread = all[i].moments.bottomRightCorner<3, 3>() / volume - mean * mean.transpose();
+    const Mat3 root = Eigen::LLT<Mat3>(spread).matrixL();
+    for (int k = 0; k < 4; ++k, ++q) {
+      out.tet.push_back(tet);
+      out.barycentric.col(q) = barycentric(mesh, tet, all[i].centre + mean + root * unit.col(k));
+      out.weights[q] = volume / 4;
+    }
+  }
+  return out;
 }
 
 }  // namespace polyaffine

@@ -33,4 +33,13 @@ std::array<Mat3, 4> strain_expansion(const Mat3& f, const std::array<Mat3, 3>& d
 /// strain E(X) = E_0 + Σ_k E_k (X − centre)_k.
 double elaston_energy(const Elaston& elaston, const std::array<Mat3, 4>& strain, double lambda, double mu);
 
+/// The elastons of integration regions as integration points. Order 0: the region's point with its volume.
+/// Order 1: four points of a quarter of the volume each at the vertices of the tetrahedron that has the
+/// moments of the region to degree two; so a strain that is linear in X has exactly the energy of the
+/// elastons, for any law, and the derivatives are those of FieldEnergy. The points are given in the tet of
+/// the region's point, from which the functions are continued (barycentric coordinates may be negative): as
+/// in an elaston, all that is known comes from one place. Four (one) consecutive points a region.
+/// Throws std::invalid_argument when order is neither 0 nor 1.
+QuadraturePoints elaston_points(const TetMesh& mesh, const IntegrationRegions& regions, int order);
+
 }  // namespace polyaffine

@@ -4,8 +4,16 @@
 #include <random>
 #include <stdexcept>
 
+#include <polyaffine/check/derivative_check.hpp>
+#include <polyaffine/energy/field_energy.hpp>
+#include <polyaffine/geometry/locate.hpp>
+#include <polyaffine/kinematics/basis.hpp>
+#include <polyaffine/material/linear_elastic.hpp>
 #include <polyaffine/quadrature/elastons.hpp>
+
 #include "polyaffine/geometry/box_mesh.hpp"
+#include "support/matrix_system.hpp"
+#include "support/random_vector.hpp"
 
 namespace polyaffine {
 namespace {
@@ -105,8 +113,85 @@ TEST(StrainExpansion, MatchesFiniteDifferencesOfGreenLagrangeStrain) {
   }
 }
 
+TEST(ElastonPoints, HaveTheMomentsOfTheirRegions) {
+  const Scene scene(7);
+  const QuadraturePoints points = elaston_points(scene.mesh, scene.regions, 1);
+  ASSERT_EQ(points.size(), 28);
+  const std::vector<Elaston> exact = elastons(scene.mesh, scene.regions, 1);
+  const Points X = positions(scene.mesh, points);
+  for (int i = 0; i < 7; ++i) {
+    Moments sum = Moments::Zero();
+    for (int q = 4 * i; q < 4 * i + 4; ++q) {
+      EXPECT_EQ(points.tet[q], scene.regions.points.tet[i]);
+      const Vec4 p = (Vec4() << 1, X.col(q) - exact[i].centre).finished();
+      sum += points.weights[q] * p * p.transpose();
+    }
+    EXPECT_LT((sum - exact[i].moments).norm(), 1e-13);
+  }
+  EXPECT_EQ(elaston_points(scene.mesh, scene.regions, 0).size(), 7);
+}
+
+// Two functions that are quadratic in X, so that the strain is linear.
+class QuadraticFunctions : public Basis {
+ public:
+  explicit QuadraticFunctions(const TetMesh& mesh) : mesh_(mesh) {}
+  int num_functions() const override { return 2; }
+  BasisSample sample(int tet, const Vec4& barycentric) const override {
+    const Vec3 x = position(mesh_, tet, barycentric);
+    BasisSample s;
+    s.functions = {0, 1};
+    s.N = (Vector(2) << x[0] * x[1] + x[2] * x[2], x[1] - x[0] * x[2]).finished();
+    s.gradient.resize(3, 2);
+    s.gradient << x[1], -x[2], x[0], 1, 2 * x[2], -x[0];
+    return s;
+  }
+
+ private:
+  const TetMesh& mesh_;
+};
+
+FieldEnergy energy_over(const Scene& scene, const QuadraturePoints& points) {
+  const Lame constants{kLambda, kMu};
+  const double young = constants.mu * (3 * kLambda + 2 * kMu) / (kLambda + kMu);
+  return FieldEnergy(deformation_table(QuadraticFunctions(scene.mesh),
+                                       {points.tet, points.barycentric, points.weights, {0, points.size()}}),
+                     {std::make_shared<LinearElastic>(Elasticity{young, kLambda / (2 * (kLambda + kMu))})});
+}
+
+TEST(ElastonPoints, HaveTheElastonEnergyAndItsDerivatives) {
+  const Scene scene(5);
+  const FieldEnergy energy = energy_over(scene, elaston_points(scene.mesh, scene.regions, 1));
+  const Vector c = testing::random_vector(6, 1, 8);
+  const auto strain = [&](const Vec3& x) {
+    const Vec3 a = c.head<3>(), b = c.tail<3>();
+    const Mat3 h = a * Vec3(x[1], x[0], 2 * x[2]).transpose() + b * Vec3(-x[2], 1, -x[0]).transpose();
+    return Mat3((h + h.transpose()) / 2);
+  };
+  double expected = 0;
+  for (const Elaston& one : elastons(scene.mesh, scene.regions, 1)) {
+    const Mat3 at = strain(one.centre);
+    std::array<Mat3, 4> expansion{at};
+    for (int k = 0; k < 3; ++k) expansion[k + 1] = strain(one.centre + Vec3::Unit(k)) - at;
+    expected += elaston_energy(one, expansion, kLambda, kMu);
+  }
+  ASSERT_GT(expected, 10);
+  EXPECT_NEAR(energy.evaluate({c}).value, expected, 1e-12 * expected);
+  const double exact = energy_over(scene, gauss_points(scene.mesh, 2)).evaluate({c}).value;
+  EXPECT_NEAR(expected, exact, 1e-12 * exact);
+  const double order_zero =
+      energy_over(scene, elaston_points(scene.mesh, scene.regions, 0)).evaluate({c}).value;
+  EXPECT_GT(exact - order_zero, 0.01 * exact);
+
+  const auto value = [&](const Vector& x) { return energy.evaluate({x}).value; };
+  const auto gradient = [&](const Vector& x) { return energy.evaluate({x}).gradient; };
+  const auto tangent = [&](const Vector& x) { return testing::tangent(energy, {x}); };
+  EXPECT_TRUE(check_gradient(value, gradient, c).passed);
+  EXPECT_TRUE(check_jacobian(gradient, tangent, c).passed);
+}
+
 TEST(Elastons, RejectOtherOrders) {
   const Scene scene(1);
+  EXPECT_THROW(elaston_points(scene.mesh, scene.regions, 2), std::invalid_argument);
   EXPECT_THROW(elastons(scene.mesh, scene.regions, 2), std::invalid_argument);
 }
 

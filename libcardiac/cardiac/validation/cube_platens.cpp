@@ -1,0 +1,166 @@
+#include "cardiac/validation/cube_platens.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <cardiac/report/text.hpp>
+#include <polyaffine/core/error.hpp>
+#include <polyaffine/kinematics/region_frames.hpp>
+#include <polyaffine/material/linear_elastic.hpp>
+#include <polyaffine/material/neo_hookean.hpp>
+#include <polyaffine/material/volumetric.hpp>
+#include <polyaffine/quadrature/consistent_weights.hpp>
+#include <polyaffine/solve/equilibrium.hpp>
+
+namespace cardiac {
+
+using namespace polyaffine;
+
+namespace {
+
+using Laws = std::vector<std::shared_ptr<const Law>>;
+
+constexpr double kApproach = 0.01;                                // mm: strains of 1e-5
+constexpr double kForce = kCubePressure * kCubeSize * kCubeSize;  // mN
+
+double bulk_modulus() {
+  const Lame constants = lame(kCubeElasticity);
+  return constants.lambda + 2 * constants.mu / 3;
+}
+
+QuadraturePoints centroids(const TetMesh& mesh) {
+  return gauss_points(mesh, 1);
+}
+
+// Frames that vanish on the platens, and one that carries z/h.
+class PlatenFrames : public FrameField {
+ public:
+  PlatenFrames(std::shared_ptr<const LagrangeBasis> geometry, RegionFrames inner)
+      : geometry_(std::move(geometry)), inner_(std::move(inner)) {}
+  int num_frames() const override { return inner_.num_frames() + 1; }
+  FramesAtPoint sample(int tet, const Vec4& barycentric) const override {
+    FramesAtPoint out = inner_.sample(tet, barycentric);
+    const BasisSample at = geometry_->sample(tet, barycentric);
+    FrameSample lift;
+    lift.frame = inner_.num_frames();
+    lift.weight = 1;
+    lift.xi = geometry_->nodes()(Eigen::all, at.functions) * at.N / kCubeSize;
+    lift.xi_gradient = Mat3::Identity() / kCubeSize;
+    out.frames.push_back(lift);
+    return out;
+  }
+
+ private:
+  std::shared_ptr<const LagrangeBasis> geometry_;
+  RegionFrames inner_;
+};
+
+PlatenSolution solve(const CubeScene& scene, const Basis& basis, const EquilibriumProblem& problem,
+                     LinearSystem& system) {
+  Vector c = Vector::Zero(3 * basis.num_functions());
+  const NewtonReport report = newton(problem, 1, system, c);
+  if (!report.converged()) throw ComputationError("cube between platens: " + to_string(report.reason));
+  const QuadraturePoints at = centroids(scene.mesh);
+  // Twice the energy is the force times the approach.
+  const double force = 2 * problem.terms[0].energy->evaluate({c}).value / kApproach;
+  return {-kApproach * kForce / force, DisplacementMap(basis, at.tet, at.barycentric).apply(c)};
+}
+
+PlatenSolution solve_full_order(const CubeScene& scene, const LagrangeBasis& basis, Laws laws,
+                                bool mean_dilatation) {
+  const FieldTable table = deformation_table(basis, basis.wall_points(basis.order() == 1 ? 1 : 4));
+  std::optional<PressureSpace> pressure;
+  if (mean_dilatation) pressure = block_pressure(table, bulk_modulus());
+  EquilibriumProblem problem;
+  problem.terms.push_back({std::make_shared<FieldEnergy>(table, std::move(laws), pressure)});
+  problem.fixed.assign(table.num_unknowns(), 0);
+  problem.prescribed = Vector::Zero(table.num_unknowns());
+  for (const int node : basis.surface_nodes(scene.mesh, {kCubeBottom, kCubeTop})) {
+    for (int k = 0; k < 3; ++k) problem.fixed[3 * node + k] = 1;
+    if (basis.nodes()(2, node) > kCubeSize / 2) problem.prescribed[3 * node + 2] = -kApproach;
+  }
+  return solve(scene, basis, problem, *sparse_system({&table}, problem.fixed));
+}
+
+std::shared_ptr<const Basis> platen_basis(const CubeScene& scene, const CubePlacement& placement) {
+  std::vector<ControlNode> nodes;
+  for (int i = 0; i < placement.num_zones(); ++i) nodes.push_back({placement.nodes.col(i), Mat3::Identity()});
+  const auto z = scene.quadratic->nodes().row(2).transpose().array() / kCubeSize;
+  RegionFrames inner(scene.quadratic, placement.weights, std::move(nodes), placement.length(),
+                     (4 * z * (1 - z)).matrix());
+  std::vector<FrameFunctions> functions(placement.num_zones(), {affine_monomials()});
+  functions.push_back({{{0, 0, 1}}});
+  return std::make_shared<FrameBasis>(std::make_shared<PlatenFrames>(scene.quadratic, std::move(inner)),
+                                      functions);
+}
+
+}  // namespace
+
+PlatenSolution solve_platens_linear(const CubeScene& scene) {
+  return solve_full_order(scene, *scene.linear, {std::make_shared<LinearElastic>(kCubeElasticity)}, false);
+}
+
+PlatenSolution solve_platens_quadratic(const CubeScene& scene) {
+  return solve_full_order(scene, *scene.quadratic,
+                          {std::make_shared<IsochoricNeoHookean>(lame(kCubeElasticity).mu)}, true);
+}
+
+PlatenSolution solve_platens_reduced(const CubeScene& scene, const CubePlacement& placement) {
+  const QuadraturePoints& points = placement.integration.points;
+  const auto basis = platen_basis(scene, placement);
+  FieldTable table = deformation_table(*basis, placement.wall_points(points));
+  table.weights = consistent_weights(integration_constraint(
+                                         table, boundary_integrals(*basis, scene.boundary(*scene.quadratic))),
+                                     region_moments(scene.mesh, placement.zone, placement.num_zones(),
+                                                    points.tet, positions(scene.mesh, points)),
+                                     points.weights)
+                      .weights;
+  const double mu = lame(kCubeElasticity).mu, local = 4 * mu;
+  const PressureSpace pressure =
+      region_pressure(table, placement.integration.control, placement.num_zones(), bulk_modulus() - local);
+  EquilibriumProblem problem;
+  problem.terms.push_back({std::make_shared<FieldEnergy>(
+      table, Laws{std::make_shared<IsochoricNeoHookean>(mu), std::make_shared<QuadraticVolumetric>(local)},
+      pressure)});
+  problem.fixed.assign(table.num_unknowns(), 0);
+  std::fill(problem.fixed.end() - 3, problem.fixed.end(), 1);
+  problem.prescribed = Vector::Zero(table.num_unknowns());
+  problem.prescribed[table.num_unknowns() - 1] = -kApproach;
+  return solve(scene, *basis, problem, *dense_system(table.num_unknowns(), problem.fixed));
+}
+
+PlatenRow compare_platens(const CubeScene& scene, const PlatenSolution& truth, int zones, int points,
+                          int placements) {
+  const QuadraturePoints at = centroids(scene.mesh);
+  const Vector weight = at.weights.cwiseSqrt();
+  Points bulge = truth.displacement;
+  bulge.row(2) += kApproach / kCubeSize * positions(scene.mesh, at).row(2);
+  const double size = (bulge * weight.asDiagonal()).norm();
+  std::mt19937_64 random(static_cast<unsigned>(zones));
+  PlatenRow row{zones, points, 12 * zones, placements};
+  for (int k = 0; k < placements; ++k) {
+    const CubePlacement placement = place_cube(scene, zones, points, random);
+    const PlatenSolution found = solve_platens_reduced(scene, placement);
+    row.redraws += placement.redraws;
+    row.thickness_error_percent +=
+        100 * std::abs(found.thickness_change_mm / truth.thickness_change_mm - 1) / placements;
+    row.displacement_error_percent +=
+        100 * ((found.displacement - truth.displacement) * weight.asDiagonal()).norm() / size / placements;
+  }
+  return row;
+}
+
+std::string platens_csv(const std::vector<PlatenRow>& rows) {
+  std::string out =
+      "zones,points,unknowns,placements,redraws,thickness_error_percent,displacement_error_percent\n";
+  for (const PlatenRow& r : rows) {
+    for (const int value : {r.zones, r.points, r.unknowns, r.placements, r.redraws})
+      out += std::to_string(value) + ",";
+    out += number_text(r.thickness_error_percent) + "," + number_text(r.displacement_error_percent) + "\n";
+  }
+  return out;
+}
+
+}  // namespace cardiac

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+
+#include <cardiac/validation/cube_scene.hpp>
+
+namespace cardiac {
+
+/// The cube between two platens on which it cannot slip: top and bottom move rigidly along z, the sides are
+/// free and bulge. Small strain: the platens approach a little, and the change of thickness is scaled to a
+/// force of 2000 N.
+struct PlatenSolution {
+  double thickness_change_mm = 0;
+  polyaffine::Points displacement;  ///< at the centroids of the tets, for the same approach
+};
+
+/// Linear tetrahedra.
+PlatenSolution solve_platens_linear(const CubeScene& scene);
+/// Quadratic tetrahedra with one mean dilatation each: the truth here.
+PlatenSolution solve_platens_quadratic(const CubeScene& scene);
+
+/// Affine frames times 4 z (h − z)/h², which vanishes on the platens, and the homogeneous compression that
+/// the approach prescribes: no coefficient can slip on a platen. Consistent weights. Against locking the
+/// volume is kept by one mean dilatation a zone (region_pressure) with κ − κ_loc, and by κ_loc = 4 μ at the
+/// points, without which one pressure leaves the dilatation of twelve unknowns too free.
+PlatenSolution solve_platens_reduced(const CubeScene& scene, const CubePlacement& placement);
+
+/// Errors against the truth of one number of zones, means over placements.
+struct PlatenRow {
+  int zones = 0, points = 0, unknowns = 0, placements = 0, redraws = 0;
+  double thickness_error_percent = 0;     ///< mean absolute value
+  double displacement_error_percent = 0;  ///< L2, relative to the bulge: truth minus homogeneous compression
+};
+
+PlatenRow compare_platens(const CubeScene& scene, const PlatenSolution& truth, int zones, int points,
+                          int placements);
+
+std::string platens_csv(const std::vector<PlatenRow>& rows);
+
+}  // namespace cardiac
