@@ -27,10 +27,6 @@ namespace {
 
 using Laws = std::vector<std::shared_ptr<const Law>>;
 
-double processor_time() {
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
-
 // Value at the centre of the face and differences from one side to the other of the least-squares plane.
 Vec3 fit_plane(const SurfacePoints& face, const Points& u) {
   Mat3 normal = Mat3::Zero();
@@ -130,6 +126,10 @@ CubeThickness operator-(const CubeThickness& a, const CubeThickness& b) {
   return {a.change - b.change, a.slope_x - b.slope_x, a.slope_y - b.slope_y};
 }
 
+double processor_time() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
 double exact_thickness_change() {
   return -kCubePressure / kCubeElasticity.young * kCubeSize;
 }
@@ -169,6 +169,7 @@ CubeReduction::CubeReduction(const CubeScene& scene, const CubePlacement& placem
                                                   points.tet, positions(scene.mesh, points));
   ConsistentWeights found = consistent_weights(constraint, moments, points.weights);
   consistent_ = std::move(found.weights);
+  is_consistent_ = found.met;
   keeps_moments_ = found.moments;
   correction_s_ = processor_time() - start;
   defect_ = constraint.A * points.weights - constraint.b;

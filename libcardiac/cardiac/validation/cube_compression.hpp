@@ -48,6 +48,7 @@ class CubeReduction {
   /// Thickness error caused by the spurious forces σ·(Σ_q w_q ∇N_a − ∮ N_a n dA) of the volumes as weights.
   CubeThickness defect_response() const;
 
+  bool is_consistent() const { return is_consistent_; }  ///< there are consistent weights for these points
   bool keeps_moments() const { return keeps_moments_; }  ///< of every zone, in the consistent weights
   double setup_s() const { return setup_s_; }            ///< processor time of weights and tables
   double correction_s() const { return correction_s_; }  ///< and of the consistent weights
@@ -63,9 +64,12 @@ class CubeReduction {
   std::optional<polyaffine::DisplacementMap> bottom_map_, top_map_;
   polyaffine::Vector consistent_, defect_;
   double relative_defect_ = 0;
-  bool keeps_moments_ = false;
+  bool is_consistent_ = false, keeps_moments_ = false;
   double setup_s_ = 0, correction_s_ = 0;
 };
+
+/// Processor time of the program so far, s.
+double processor_time();
 
 /// Exact change of thickness, −p h / E, mm.
 double exact_thickness_change();

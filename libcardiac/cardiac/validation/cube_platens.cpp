@@ -84,6 +84,8 @@ PlatenSolution solve_full_order(const CubeScene& scene, const LagrangeBasis& bas
   return solve(scene, basis, problem, *sparse_system({&table}, problem.fixed));
 }
 
+}  // namespace
+
 std::shared_ptr<const Basis> platen_basis(const CubeScene& scene, const CubePlacement& placement) {
   std::vector<ControlNode> nodes;
   for (int i = 0; i < placement.num_zones(); ++i) nodes.push_back({placement.nodes.col(i), Mat3::Identity()});
@@ -95,8 +97,6 @@ std::shared_ptr<const Basis> platen_basis(const CubeScene& scene, const CubePlac
   return std::make_shared<FrameBasis>(std::make_shared<PlatenFrames>(scene.quadratic, std::move(inner)),
                                       functions);
 }
-
-}  // namespace
 
 PlatenSolution solve_platens_linear(const CubeScene& scene) {
   return solve_full_order(scene, *scene.linear, {std::make_shared<LinearElastic>(kCubeElasticity)}, false);
@@ -111,12 +111,13 @@ PlatenSolution solve_platens_reduced(const CubeScene& scene, const CubePlacement
   const QuadraturePoints& points = placement.integration.points;
   const auto basis = platen_basis(scene, placement);
   FieldTable table = deformation_table(*basis, placement.wall_points(points));
-  table.weights = consistent_weights(integration_constraint(
-                                         table, boundary_integrals(*basis, scene.boundary(*scene.quadratic))),
-                                     region_moments(scene.mesh, placement.zone, placement.num_zones(),
-                                                    points.tet, positions(scene.mesh, points)),
-                                     points.weights)
-                      .weights;
+  const WeightConditions constraint =
+      integration_constraint(table, boundary_integrals(*basis, scene.boundary(*scene.quadratic)));
+  const WeightConditions moments = region_moments(scene.mesh, placement.zone, placement.num_zones(),
+                                                  points.tet, positions(scene.mesh, points));
+  ConsistentWeights found = consistent_weights(constraint, moments, points.weights);
+  if (!found.met) throw ComputationError("cube between platens: no consistent weights for these points");
+  table.weights = std::move(found.weights);
   const double mu = lame(kCubeElasticity).mu, local = 4 * mu;
   const PressureSpace pressure =
       region_pressure(table, placement.integration.control, placement.num_zones(), bulk_modulus() - local);

@@ -19,10 +19,13 @@ PlatenSolution solve_platens_linear(const CubeScene& scene);
 /// Quadratic tetrahedra with one mean dilatation each: the truth here.
 PlatenSolution solve_platens_quadratic(const CubeScene& scene);
 
-/// Affine frames times 4 z (h − z)/h², which vanishes on the platens, and the homogeneous compression that
-/// the approach prescribes: no coefficient can slip on a platen. Consistent weights. Against locking the
-/// volume is kept by one mean dilatation a zone (region_pressure) with κ − κ_loc, and by κ_loc = 4 μ at the
-/// points, without which one pressure leaves the dilatation of twelve unknowns too free.
+/// Affine frames times 4 z (h − z)/h², which vanishes on the platens, and as the last function z/h, whose
+/// coefficient is the displacement of the upper platen: no coefficient can slip on a platen.
+std::shared_ptr<const polyaffine::Basis> platen_basis(const CubeScene& scene, const CubePlacement& placement);
+
+/// The frames of platen_basis with consistent weights. Against locking the volume is kept by one mean
+/// dilatation a zone (region_pressure) with κ − κ_loc, and by κ_loc = 4 μ at the points, without which one
+/// pressure leaves the dilatation of twelve unknowns too free.
 PlatenSolution solve_platens_reduced(const CubeScene& scene, const CubePlacement& placement);
 
 /// Errors against the truth of one number of zones, means over placements.

@@ -25,13 +25,15 @@ struct CubeRow {
   PaperCell paper;
   CubeMethod method;
   CubeWeights weights = CubeWeights::volumes;
-  int placements = 0, redraws = 0;
+  int placements = 0;
+  int redraws = 0;            ///< sets of points drawn anew because no consistent weights exist for them
   double error_percent = 0;   ///< |mean| of the signed error of the thickness
   double spread_percent = 0;  ///< its standard deviation over the placements
   double worst_percent = 0;   ///< its largest absolute value
   double tilt_percent = 0;    ///< mean over the placements of the largest tilt of the faces
   double solve_s = 0;         ///< mean processor time of a solution
   double time_ratio = 0;      ///< solve_s over that of linear finite elements, measured in between
+  double placement_s = 0;     ///< mean processor time of zones and integration points
   double setup_s = 0;         ///< mean processor time of shape functions and tables
   double correction_s = 0;    ///< and of the consistent weights (0 for volumes)
   double moments_kept = 0;    ///< share of placements whose weights keep the first moments of every zone

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <polyaffine/core/error.hpp>
 #include <polyaffine/quadrature/consistent_weights.hpp>
 
 #include "support/random_regions.hpp"
@@ -30,6 +29,7 @@ struct Scene {
 TEST(ConsistentWeights, MeetTheConstraintAndKeepEveryRegion) {
   const Scene scene(300);
   const ConsistentWeights found = scene.solve();
+  EXPECT_TRUE(found.met);
   EXPECT_TRUE(found.moments);
   EXPECT_GE(found.weights.minCoeff(), 0);
   EXPECT_GT(scene.miss(scene.constraint, scene.regions.integration.points.weights), 1e-4);
@@ -37,10 +37,11 @@ TEST(ConsistentWeights, MeetTheConstraintAndKeepEveryRegion) {
   EXPECT_LT(scene.miss(scene.moments, found.weights), 1e-12);
 }
 
-// 60 conditions of the constraint and 20 of the moments on 100 points.
+// 60 conditions of the constraint and 20 of the moments on 110 points.
 TEST(ConsistentWeights, GiveUpTheMomentsBeforeTheConstraint) {
-  const Scene scene(100);
+  const Scene scene(110);
   const ConsistentWeights found = scene.solve();
+  EXPECT_TRUE(found.met);
   EXPECT_FALSE(found.moments);
   EXPECT_GE(found.weights.minCoeff(), 0);
   EXPECT_LT(scene.miss(scene.constraint, found.weights), 1e-12);
@@ -48,7 +49,9 @@ TEST(ConsistentWeights, GiveUpTheMomentsBeforeTheConstraint) {
 }
 
 TEST(ConsistentWeights, SayThatThereAreTooFewPoints) {
-  EXPECT_THROW(Scene(40).solve(), ComputationError);
+  const ConsistentWeights found = Scene(40).solve();
+  EXPECT_FALSE(found.met);
+  EXPECT_FALSE(found.moments);
 }
 
 }  // namespace
