@@ -1,10 +1,13 @@
 #include <cardiac/validation/cube.hpp>
+#include <cardiac/validation/land.hpp>
+
 #include "cardiac/validation/check.hpp"
 
 namespace cardiac {
 
 const std::vector<ValidationCase>& validation_cases() {
   static const std::vector<ValidationCase> cases{
+      {"land", "cardiac mechanics verification of Land et al. 2015, full order", validate_land},
       {"cube", "the poly-affine paper's Table 1, and the cube between no-slip platens", validate_cube}};
   return cases;
 }

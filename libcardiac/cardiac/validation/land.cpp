@@ -1,0 +1,137 @@
+#include <cardiac/validation/land.hpp>
+
+#include <array>
+#include <iomanip>
+#include <sstream>
+
+#include <cardiac/validation/land_model.hpp>
+#include <polyaffine/core/atomic_file.hpp>
+
+namespace cardiac {
+namespace {
+
+using polyaffine::TetMesh;
+
+constexpr auto kSource = "Land et al. 2015, Proc. R. Soc. A 471:20150641";
+constexpr int kMostIterations = 40;
+
+struct Quantity {
+  std::string name, unit;
+  double reference, low, high;  // range on the finer mesh; on the coarser one it is twice as wide
+};
+
+struct Problem {
+  std::string name;
+  std::function<TetMesh(const ValidationContext&, double edge_mm)> mesh;
+  std::array<double, 2> edge_mm;  // coarser, finer
+  std::function<LandSolution(const TetMesh&)> solve;
+  std::vector<Quantity> quantities;
+  double cpu_s[2];            // most CPU time on the two meshes in total, 0: any
+  double iteration_cpu_s[2];  // and of one Newton iteration
+};
+
+TetMesh ellipsoid(const ValidationContext& context, double edge_mm) {
+  return context.mesh_ellipsoid(land_ellipsoid(), edge_mm);
+}
+
+const std::vector<Problem>& problems() {
+  static const std::vector<Problem> list{
+      {"land1",
+       [](const ValidationContext& context, double edge) {
+         return context.mesh_box({10, 1, 1}, edge);
+       },
+       {0.7, 0.3},
+       solve_land_beam,
+       {{"z_mm", "mm", 4.170, 4.16, 4.18}},
+       {0, 0},
+       {0, 0}},
+      {"land2",
+       ellipsoid,
+       {2.7, 1.7},
+       [](const TetMesh& mesh) { return solve_land_ellipsoid(mesh, false); },
+       {{"endo_apex_z_mm", "mm", -26.612, -26.7, -26.5},
+        {"epi_apex_z_mm", "mm", -28.279, -28.38, -28.2},
+        {"cavity_mm3", "mm3", 10734, 0.99 * 10734, 1.01 * 10734}},
+       {3, 0},
+       {0, 0.5}},
+      {"land3",
+       ellipsoid,
+       {1.7, 1.15},
+       [](const TetMesh& mesh) { return solve_land_ellipsoid(mesh, true); },
+       {{"endo_apex_z_mm", "mm", -12.347, -12.7, -12.0},
+        {"epi_apex_z_mm", "mm", -15.452, -15.8, -15.2},
+        {"cavity_mm3", "mm3", 1795.9, 0.98 * 1795.9, 1.02 * 1795.9}},
+       {0, 0},
+       {0, 0}},
+  };
+  return list;
+}
+
+void add_checks(const Problem& problem, int level, const LandSolution& solution, std::vector<Check>& checks) {
+  Check check;
+  check.case_name = problem.name;
+  check.method = "fem_p2 " + std::to_string(solution.tets) + " tets";
+  check.wall_time_s = solution.wall_s;
+  check.source = kSource;
+  const double widening = level == 0 ? 2 : 1;
+  for (std::size_t k = 0; k < problem.quantities.size(); ++k) {
+    const Quantity& q = problem.quantities[k];
+    check.quantity = q.name;
+    check.unit = q.unit;
+    check.value = solution.values[k];
+    check.reference = q.reference;
+    check.low = q.reference - widening * (q.reference - q.low);
+    check.high = q.reference + widening * (q.high - q.reference);
+    checks.push_back(check);
+  }
+  const auto at_most = [&](const char* quantity, const char* unit, double value, double most,
+                           const char* source) {
+    if (most <= 0) return;
+    check.quantity = quantity;
+    check.unit = unit;
+    check.value = value;
+    check.reference = check.high = most;
+    check.low = 0;
+    check.source = source;
+    checks.push_back(check);
+  };
+  at_most("largest_dilatation", "1", solution.largest_dilatation, 1e-6, "mean det F of an element is 1");
+  at_most("newton_iterations", "1", solution.newton_iterations, kMostIterations, "bound on a load path");
+  at_most("total_cpu_s", "s", solution.cpu_s, problem.cpu_s[level], "bound for about 1900 quadratic tets");
+  at_most("iteration_cpu_s", "s", solution.cpu_s / solution.newton_iterations, problem.iteration_cpu_s[level],
+          "bound for about 6100 quadratic tets");
+}
+
+void add_rows(const Problem& problem, const LandSolution& s, std::ostream& table) {
+  for (std::size_t k = 0; k < problem.quantities.size(); ++k) {
+    const Quantity& q = problem.quantities[k];
+    table << problem.name << ',' << q.name << ',' << s.tets << ',' << s.unknowns << ',' << s.values[k] << ','
+          << q.reference << ',' << s.load_steps << ',' << s.newton_iterations << ',' << s.largest_dilatation
+          << ',' << s.cpu_s << '\n';
+  }
+}
+
+}  // namespace
+
+std::vector<Check> validate_land(const ValidationContext& context) {
+  std::vector<Check> checks;
+  std::ostringstream table;
+  table << std::setprecision(8)
+        << "case,quantity,mesh_tets,unknowns,value,reference,load_steps,newton_iterations,largest_dilatation,"
+           "cpu_s\n";
+  const int levels = context.quick ? 1 : 2;
+  const double all = static_cast<double>(problems().size()) * levels;
+  double done = 0;
+  for (const Problem& problem : problems())
+    for (int level = 0; level < levels; ++level) {
+      const TetMesh mesh = problem.mesh(context, problem.edge_mm[level]);
+      context.progress(problem.name + ", " + std::to_string(mesh.num_tets()) + " tets", done++ / all);
+      const LandSolution solution = problem.solve(mesh);
+      add_checks(problem, level, solution, checks);
+      add_rows(problem, solution, table);
+    }
+  polyaffine::write_atomically(context.out / "land.csv", table.str());
+  return checks;
+}
+
+}  // namespace cardiac

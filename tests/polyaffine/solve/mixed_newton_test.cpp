@@ -1,0 +1,154 @@
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <polyaffine/check/derivative_check.hpp>
+#include <polyaffine/energy/springs.hpp>
+#include <polyaffine/kinematics/lagrange.hpp>
+#include <polyaffine/material/neo_hookean.hpp>
+#include <polyaffine/solve/equilibrium.hpp>
+
+#include "support/labelled_box.hpp"
+#include "support/matrix_system.hpp"
+#include "support/random_vector.hpp"
+
+namespace polyaffine {
+namespace {
+
+constexpr double kMu = 10;  // kPa
+using Laws = std::vector<std::shared_ptr<const Law>>;
+
+// A bar of 3 × 1 × 1 mm, clamped at one end and bent by a traction on the other.
+struct Bar {
+  TetMesh mesh = testing::labelled_box(Vec3::Zero(), Vec3(3, 1, 1), {3, 2, 2}, 0.2);
+  LagrangeBasis basis{mesh, 2};
+  FieldTable table = deformation_table(basis, basis.wall_points(3));
+
+  std::shared_ptr<FieldEnergy> wall(double kappa, bool incompressible) const {
+    return wall(block_pressure(table, kappa, incompressible));
+  }
+  std::shared_ptr<FieldEnergy> wall(const PressureSpace& space) const {
+    return std::make_shared<FieldEnergy>(table, Laws{std::make_shared<NeoHookean>(Lame{0, kMu})}, space);
+  }
+  EquilibriumProblem bending(const std::shared_ptr<FieldEnergy>& wall) const {
+    PotentialTerm pull{std::make_shared<FieldEnergy>(
+        displacement_table(basis, basis.surface_points(mesh, {testing::kXHigh}, 2)),
+        Laws{std::make_shared<DeadTraction>(Vec3(0, 0, 0.4))})};
+    pull.scale = [](double load) { return load; };
+    pull.wall = false;
+    EquilibriumProblem problem;
+    problem.terms = {{wall}, pull};
+    problem.fixed.assign(table.num_unknowns(), 0);
+    for (const int node : basis.surface_nodes(mesh, {testing::kXLow}))
+      for (int k = 0; k < 3; ++k) problem.fixed[3 * node + k] = 1;
+    return problem;
+  }
+  Vector state(unsigned seed) const { return testing::random_vector(table.num_unknowns(), 0.02, seed); }
+};
+
+TEST(MixedEnergy, GradientsAreThoseOfItsValue) {
+  const Bar bar;
+  for (const bool incompressible : {false, true}) {
+    const auto wall = bar.wall(50, incompressible);
+    const Vector c = bar.state(1);
+    const Vector p = testing::random_vector(bar.mesh.num_tets(), 5, 2);
+    const auto by_c = [&](const Vector& x) { return wall->evaluate({x, {}, nullptr, &p}); };
+    const auto by_p = [&](const Vector& x) { return wall->evaluate({c, {}, nullptr, &x}); };
+    EXPECT_TRUE(check_gradient([&](const Vector& x) { return by_c(x).value; },
+                               [&](const Vector& x) { return by_c(x).gradient; }, c)
+                    .passed);
+    EXPECT_TRUE(check_gradient([&](const Vector& x) { return by_p(x).value; },
+                               [&](const Vector& x) { return by_p(x).pressure_gradient; }, p)
+                    .passed);
+    EXPECT_GT(by_p(p).pressure_gradient.norm(), 1e-3);
+  }
+}
+
+TEST(MixedEnergy, TangentBlocksAreTheDerivativesOfTheResiduals) {
+  const Bar bar;
+  const auto wall = bar.wall(50, true);
+  const Vector c = bar.state(3);
+  const Vector p = testing::random_vector(bar.mesh.num_tets(), 5, 4);
+  const auto with = [&](const Vector& x, const Vector& pressure) {
+    return wall->evaluate({x, {}, nullptr, &pressure});
+  };
+  const Vector u = bar.state(5);
+  const double h = 1e-5;
+  // D u and Dᵀ p
+  const Vector Du = (with(c + h * u, p).pressure_gradient - with(c - h * u, p).pressure_gradient) / (2 * h);
+  ASSERT_GT(Du.norm(), 1e-4);
+  EXPECT_LT((wall->volume_change(c, u) - Du).norm(), 1e-7 * Du.norm());
+  const Vector none = Vector::Zero(p.size());
+  const Vector Dp = with(c, p).gradient - with(c, none).gradient;
+  ASSERT_GT(Dp.norm(), 1e-2);
+  EXPECT_LT((wall->pressure_force(c, p) - Dp).norm(), 1e-11 * Dp.norm());
+  // K(c, p) u, what the tangent has without κ Dᵀ M⁻¹ D
+  const Vector Ku = (with(c + h * u, p).gradient - with(c - h * u, p).gradient) / (2 * h);
+  const Vector penalty = wall->pressure_force(c, wall->penalty_pressure(wall->volume_change(c, u)));
+  const Vector tangent = testing::tangent(*wall, {c, {}, nullptr, &p}) * u;
+  EXPECT_LT((tangent - penalty - Ku).norm(), 1e-6 * Ku.norm());
+}
+
+// The condensed residual, κ M⁻¹ g in place of the pressures, vanishes where the mixed form has its solution.
+TEST(MixedNewton, FindsTheEquilibriumOfTheCondensedForm) {
+  const Bar bar;
+  for (const bool regions : {false, true}) {  // one pressure an element, and two over the whole bar
+    std::vector<int> half;
+    for (Eigen::Index q = 0; q < bar.table.num_points(); ++q) half.push_back(static_cast<int>(q) % 2);
+    const auto wall =
+        bar.wall(regions ? region_pressure(bar.table, half, 2, 100) : block_pressure(bar.table, 100));
+    const EquilibriumProblem problem = bar.bending(wall);
+    const auto system = regions ? dense_system(bar.table.num_unknowns(), problem.fixed)
+                                : sparse_system({&bar.table}, problem.fixed);
+    Vector c = Vector::Zero(bar.table.num_unknowns());
+    ASSERT_TRUE(load_stepping(problem, *system, c).converged());
+    EXPECT_GT(c.cwiseAbs().maxCoeff(), 0.3);
+    const Vector wall_force = wall->evaluate({c}).gradient;
+    Vector r = wall_force + problem.terms[1].energy->evaluate({c}).gradient;
+    for (Eigen::Index i = 0; i < r.size(); ++i)
+      if (problem.fixed[static_cast<std::size_t>(i)]) r[i] = 0;
+    EXPECT_LT(r.norm(), 1e-5 * wall_force.norm());
+  }
+}
+
+TEST(MixedNewton, AStiffVolumeCostsNoMoreIterationsThanASoftOne) {
+  const Bar bar;
+  std::vector<int> iterations;
+  for (const double kappa : {10.0, 1e3, 1e5, 1e7}) {
+    const EquilibriumProblem problem = bar.bending(bar.wall(kappa, false));
+    Vector c = Vector::Zero(bar.table.num_unknowns());
+    const LoadReport report = load_stepping(problem, *sparse_system({&bar.table}, problem.fixed), c);
+    ASSERT_TRUE(report.converged()) << kappa;
+    iterations.push_back(report.iterations);
+  }
+  EXPECT_LE(iterations.back(), iterations.front() + 6);
+}
+
+TEST(MixedNewton, AnIncompressibleSpaceKeepsEveryMeanDilatationWhateverThePenalty) {
+  const Bar bar;
+  Vector first;
+  for (const double penalty : {1e4, 1e6}) {
+    const auto wall = bar.wall(penalty, true);
+    const EquilibriumProblem problem = bar.bending(wall);
+    Vector c = Vector::Zero(bar.table.num_unknowns());
+    ASSERT_TRUE(load_stepping(problem, *sparse_system({&bar.table}, problem.fixed), c).converged());
+    EXPECT_LT(wall->pressure(c).cwiseAbs().maxCoeff() / penalty, 1e-7);
+    if (first.size() == 0) first = c;
+    EXPECT_LT((c - first).norm(), 1e-5 * c.norm());
+  }
+}
+
+TEST(MixedNewton, HasTheSameBitsOnOneThreadAndOnTwo) {
+  const Bar bar;
+  std::vector<Vector> results;
+  for (const std::size_t threads : {1, 2}) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    const EquilibriumProblem problem = bar.bending(bar.wall(1e3, true));
+    Vector c = Vector::Zero(bar.table.num_unknowns());
+    ASSERT_TRUE(load_stepping(problem, *sparse_system({&bar.table}, problem.fixed), c).converged());
+    results.push_back(c);
+  }
+  EXPECT_TRUE(results[0] == results[1]);
+}
+
+}  // namespace
+}  // namespace polyaffine
