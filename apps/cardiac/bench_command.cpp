@@ -58,7 +58,7 @@ void bench(const BenchOptions& options) {
   }
   std::vector<SceneResult> results;
   for (const BenchScene& scene : bench_scenes()) {
-    if (!options.scene.empty() && options.scene != scene.name) continue;
+    if (!options.scene.empty() && options.scene != scene.group) continue;
     ProgressLine line(options.quiet);
     context.progress = [&](const std::string& what, double fraction) { line(what, fraction); };
     results.push_back(run_scene(scene, context));
@@ -74,12 +74,11 @@ void add_bench_command(CLI::App& app) {
   auto* command = app.add_subcommand("bench", "Error against run time of reduced and full-order models.");
   auto options = std::make_shared<BenchOptions>();
   std::vector<std::string> names;
-  std::string what = "one scene only";
   for (const BenchScene& scene : bench_scenes()) {
-    names.push_back(scene.name);
-    what += "; " + scene.name + ": " + scene.title;
+    if (!names.empty() && names.back() == scene.group) continue;
+    names.push_back(scene.group);
   }
-  command->add_option("SCENE", options->scene, what)->check(CLI::IsMember(names));
+  command->add_option("SCENE", options->scene, "one scene only")->check(CLI::IsMember(names));
   command->add_option("--out", options->out, "folder of bench.csv, bench.md and bench.svg")
       ->type_name("DIR")
       ->capture_default_str();

@@ -1,6 +1,7 @@
 #include <cardiac/bench/bench.hpp>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <variant>
 
@@ -20,6 +21,7 @@ struct ModelChoice {
   std::string method;
   std::size_t mesh;
   std::vector<std::string> settings;
+  std::string own{};  // a further setting that the row tells
 };
 
 ModelChoice full_order(int order, std::size_t mesh) {
@@ -28,9 +30,17 @@ ModelChoice full_order(int order, std::size_t mesh) {
           {"reduction.method=fem", "reduction.element_order=" + std::to_string(order)}};
 }
 
-ModelChoice reduced(const std::string& preset, const std::string& integration, std::size_t mesh) {
-  return {"polyaffine", mesh, {"reduction.preset=" + preset, "reduction.integration=" + integration}};
+ModelChoice reduced(const std::string& preset, const std::string& ring_nodes, std::size_t mesh,
+                    const std::string& integration = "cells") {
+  return {"polyaffine",
+          mesh,
+          {"reduction.preset=" + preset, "reduction.ring_nodes=" + ring_nodes,
+           "reduction.integration=" + integration}};
 }
+
+// The apex node and these: 5, 17 (one a segment), 29 and 61 control nodes.
+constexpr std::array kRingNodes{"[4]", "[4,6,6]", "[4,6,6,6,6]", "[12,12,12,12,12]"};
+constexpr const char* kSegments = kRingNodes[1];
 
 // By edge length, or by the cells of a structured mesh.
 using MeshChoice = std::variant<double, StructuredCells>;
@@ -40,23 +50,49 @@ struct Plan {
   std::vector<ModelChoice> models;  // the first one is the reference
 };
 
-Plan make_plan(bool quick) {
+// The same mesh and functions at six compressibilities, full order for each.
+Plan compliance_plan() {
   Plan plan;
-  if (quick) {
-    plan.meshes = {2.7, StructuredCells{3, 6, 1}, StructuredCells{5, 10, 1}};
-    plan.models = {full_order(2, 0), full_order(1, 0), full_order(2, 1), full_order(2, 2)};
-    for (const char* preset : {"fast", "accurate"}) plan.models.push_back(reduced(preset, "cells", 0));
-    return plan;
-  }
-  plan.meshes = {
-      1.56, 2.2, 3.0, StructuredCells{3, 6, 1}, StructuredCells{4, 8, 1}, StructuredCells{6, 12, 1}};
+  plan.meshes = {StructuredCells{8, 16, 2}};
+  plan.models = {full_order(2, 0), reduced("fast", kSegments, 0), reduced("accurate", kSegments, 0)};
+  return plan;
+}
+
+Plan quick_plan() {
+  Plan plan;
+  plan.meshes = {StructuredCells{12, 24, 2}, StructuredCells{3, 6, 1}, StructuredCells{5, 10, 1}};
+  plan.models = {full_order(2, 0), full_order(1, 0), full_order(2, 1), full_order(2, 2)};
+  for (const char* preset : {"fast", "accurate"}) plan.models.push_back(reduced(preset, kSegments, 0));
+  return plan;
+}
+
+Plan whole_plan() {
+  Plan plan;
+  plan.meshes = {1.56,
+                 2.2,
+                 StructuredCells{3, 6, 1},
+                 StructuredCells{4, 8, 1},
+                 StructuredCells{6, 12, 1},
+                 StructuredCells{8, 16, 2}};
   plan.models = {full_order(2, 0)};
   for (std::size_t mesh = 0; mesh < plan.meshes.size(); ++mesh)
     for (const int order : {1, 2})
       if (mesh > 0 || order == 1) plan.models.push_back(full_order(order, mesh));
-  for (const char* preset : {"fast", "accurate"})
-    for (const char* integration : {"cells", "gauss"}) plan.models.push_back(reduced(preset, integration, 1));
+  for (const char* preset : {"fast", "accurate"}) {
+    for (const char* nodes : kRingNodes) plan.models.push_back(reduced(preset, nodes, 1));
+    plan.models.push_back(reduced(preset, kSegments, 1, "gauss"));
+  }
+  // From affine frames with the accurate pressures to its richest functions.
+  for (const char* functions : {"[]", "[\"tt\"]", "[\"tt\",\"lt\",\"ct\"]"}) {
+    plan.models.push_back(reduced("accurate", kSegments, 1));
+    plan.models.back().own = std::string("reduction.enrichment=") + functions;
+  }
   return plan;
+}
+
+Plan make_plan(const BenchScene& scene, bool quick) {
+  if (scene.group == kCompliance) return compliance_plan();
+  return quick ? quick_plan() : whole_plan();
 }
 
 CurvedMesh make_mesh(const BenchScene& scene, const MeshChoice& choice, const BenchContext& context) {
@@ -113,7 +149,7 @@ void fill_speedups(std::vector<BenchRow>& rows) {
 
 SceneResult run_scene(const BenchScene& scene, const BenchContext& context) {
   const polyaffine::SingleThread single_thread;
-  const Plan plan = make_plan(context.quick);
+  const Plan plan = make_plan(scene, context.quick);
   SceneResult result{scene.name, scene.title, "", {}};
   std::vector<std::optional<CurvedMesh>> meshes(plan.meshes.size());
   std::unique_ptr<BenchModel> reference;
@@ -124,8 +160,13 @@ SceneResult run_scene(const BenchScene& scene, const BenchContext& context) {
     auto& mesh = meshes[choice.mesh];
     if (!mesh) mesh = make_mesh(scene, plan.meshes[choice.mesh], context);
     std::vector<std::string> settings = choice.settings;
+    std::string told = choice.own;
+    if (!choice.own.empty()) settings.push_back(choice.own);
     if (choice.method == "polyaffine")
-      settings.insert(settings.end(), context.settings.begin(), context.settings.end());
+      for (const std::string& setting : context.settings) {
+        settings.push_back(setting);
+        told += (told.empty() ? "" : "; ") + setting;
+      }
     auto model = std::make_unique<BenchModel>(scene, *mesh, settings);
     const BenchModel::Solution solution = timed_solution(*model);
     if (!reference) {
@@ -135,6 +176,7 @@ SceneResult run_scene(const BenchScene& scene, const BenchContext& context) {
       yardstick.emplace(*model, solution.c);
     }
     result.rows.push_back(make_row(scene, choice.method, *model, solution, *yardstick));
+    result.rows.back().settings = told;
     context.on_row(result.rows.back());
     if (!reference) reference = std::move(model);
   }

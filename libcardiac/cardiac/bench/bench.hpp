@@ -13,6 +13,7 @@ namespace cardiac {
 struct BenchRow {
   std::string scene, method;        ///< method: fem_p1, fem_p2 or polyaffine
   std::string preset, integration;  ///< empty for full order
+  std::string settings;  ///< protocol keys that differ from the preset; rings and integration apart
   int mesh_tets = 0, control_nodes = 0, dofs = 0, integration_points = 0;
   double setup_s = 0;       ///< coordinates, segments, functions, integration points, law, matrix pattern
   double solve_s = 0;       ///< the whole path of loads from zero; median of some where one is short

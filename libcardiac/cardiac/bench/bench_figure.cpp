@@ -29,7 +29,8 @@ constexpr std::array<Series, 6> kSeries{
 constexpr double kPanelWidth = 400, kPanelHeight = 300, kPitchX = 500, kPitchY = 400, kLeft = 80, kTop = 130;
 
 bool belongs(const BenchRow& row, const Series& s) {
-  return row.method == s.method && row.preset == s.preset && row.integration == s.integration;
+  return row.settings.empty() && row.method == s.method && row.preset == s.preset &&
+         row.integration == s.integration;
 }
 
 bool shown(const BenchRow& row) {
@@ -95,8 +96,12 @@ void draw_panel(Svg& svg, const SceneResult& result, double left, double top) {
 }  // namespace
 
 std::string bench_svg(const std::vector<SceneResult>& results) {
-  const auto columns = std::min<std::size_t>(2, std::max<std::size_t>(1, results.size()));
-  const std::size_t rows = (results.size() + columns - 1) / columns;
+  constexpr std::ptrdiff_t kFront = 4;  // models that make a front
+  std::vector<const SceneResult*> panels;
+  for (const SceneResult& r : results)
+    if (std::ranges::count_if(r.rows, shown) >= kFront) panels.push_back(&r);
+  const auto columns = std::min<std::size_t>(2, std::max<std::size_t>(1, panels.size()));
+  const std::size_t rows = (panels.size() + columns - 1) / columns;
   Svg svg(std::max(kLeft + kPitchX * static_cast<double>(columns), 780.0),
           kTop + kPitchY * static_cast<double>(rows), "Error against run time",
           "Displacement error in percent against time of solution in seconds, one panel a scene; the numbers "
@@ -106,8 +111,8 @@ std::string bench_svg(const std::vector<SceneResult>& results) {
     draw_mark(svg, {x, y}, kSeries[s]);
     svg.text({x + 14, y}, kSeries[s].name, {13, "#222222"});
   }
-  for (std::size_t i = 0; i < results.size(); ++i)
-    draw_panel(svg, results[i], kLeft + kPitchX * static_cast<double>(i % columns),
+  for (std::size_t i = 0; i < panels.size(); ++i)
+    draw_panel(svg, *panels[i], kLeft + kPitchX * static_cast<double>(i % columns),
                kTop + kPitchY * static_cast<double>(i / columns));
   return svg.str();
 }

@@ -9,6 +9,13 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
+// Quotes doubled, as inside a quoted CSV field.
+std::string quoted(const std::string& text) {
+  std::string out;
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out;
+}
+
 std::string csv_row(const BenchRow& row) {
   const auto known = [&](double value) { return row.converged ? value : kNone; };
   std::string out = row.scene + "," + row.method + "," + row.preset;
@@ -21,7 +28,7 @@ std::string csv_row(const BenchRow& row) {
     out += "," + number_text(value);
   out += "," + row.integration + "," + number_text(known(row.errors.compliance_ratio)) + "," +
          std::to_string(row.load_steps) + "," + std::to_string(row.newton_iterations) + "," +
-         (row.converged ? "yes" : "no");
+         (row.converged ? "yes" : "no") + ",\"" + quoted(row.settings) + "\"";
   return out + "\n";
 }
 
@@ -36,7 +43,8 @@ std::string markdown_row(const BenchRow& row) {
     out += " " + std::to_string(count) + " |";
   return out + cell(row.setup_s, 2) + cell(row.solve_s, 3) + cell(known(row.errors.displacement_percent), 2) +
          cell(known(row.errors.volume_percent), 2) + cell(known(row.errors.max_segment_strain), 4) +
-         cell(known(row.errors.apex_strain), 4) + cell(row.speedup_over_fem, 1) + "\n";
+         cell(known(row.errors.apex_strain), 4) + cell(known(row.errors.compliance_ratio), 4) +
+         cell(row.speedup_over_fem, 1) + " " + row.settings + " |\n";
 }
 
 }  // namespace
@@ -52,7 +60,7 @@ std::string bench_csv(const std::vector<SceneResult>& results) {
   out +=
       "scene,method,preset,mesh_tets,control_nodes,dofs,integration_points,setup_s,solve_s,cavity_ratio,"
       "displacement_error_percent,volume_error_percent,max_segment_strain_error,apex_strain_error,"
-      "speedup_over_fem,integration,compliance_ratio,load_steps,newton_iterations,converged\n";
+      "speedup_over_fem,integration,compliance_ratio,load_steps,newton_iterations,converged,settings\n";
   for (const SceneResult& r : results)
     for (const BenchRow& row : r.rows) out += csv_row(row);
   return out;
@@ -63,8 +71,9 @@ std::string bench_markdown(const std::vector<SceneResult>& results) {
   for (const SceneResult& r : results) {
     out += "### " + r.title + " (`" + r.scene + "`)\n\nErrors against " + r.reference +
            ".\n\n| method | preset | integration | tets | nodes | unknowns | points | setup s | solve s | "
-           "displacement % | volume % | segment strain | apex strain | × faster than P2 |\n"
-           "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+           "displacement % | volume % | segment strain | apex strain | compliance | × faster than P2 | "
+           "settings |\n"
+           "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
     for (const BenchRow& row : r.rows) out += markdown_row(row);
     out += "\n";
   }

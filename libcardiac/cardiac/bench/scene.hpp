@@ -16,20 +16,22 @@ struct SceneLoad {
 
 /// A static problem on an idealised ventricle whose base is clamped, known without any mesh.
 struct BenchScene {
-  std::string name, title;
+  std::string group, name, title;  ///< the group is what a user asks for; most have one scene, of its name
   TruncatedEllipsoid shape;
   std::string protocol;  ///< TOML: law, fibres and which loads act
   std::vector<SceneLoad>
       path;  ///< loads in numbers: equilibria reached one after the other from the unloaded wall at rest
 };
 
-/// The static scenes of the bench:
+inline constexpr auto kCompliance = "compliance";
+
+/// The static scenes of the bench, group by group:
 /// - ellipsoid_passive: isochoric neo-Hookean wall with κ/2 (J − 1)², E = 10 kPa, ν = 0.49, pressure 1 kPa;
 /// - end_systole: isochoric Guccione 2/8/2/4 with 300/2 (J − 1)², fibres +60° to −60° linear in the depth of
 ///   Land's family of ellipsoids, tension 75 f⊗f (second Piola–Kirchhoff) and pressure 13.5 kPa together;
 /// - end_systole_scar: from there, the tension in segments 7 and 8 falls to a fifth, with a smooth border of
-/// a
-///   tenth of a segment.
+///   a tenth of a segment;
+/// - compliance: ellipsoid_passive at 0.02 kPa and ν = 0.3 … 0.4999, to see whether a model locks.
 const std::vector<BenchScene>& bench_scenes();
 
 /// Share (0 to 1) of some AHA segments in a place of an idealised ventricle, anterior being +y: the exact

@@ -1,22 +1,26 @@
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 
 #include <cardiac/anatomy/segments.hpp>
 #include <cardiac/bench/scene.hpp>
+#include <cardiac/core/units.hpp>
 
 namespace cardiac {
 namespace {
 
-// μ = E / (2 (1 + ν)), κ = E / (3 (1 − 2ν)) of E = 10, ν = 0.49.
-constexpr auto kPassive = R"(
-[mesh]
-shape = "land_ellipsoid"
-[tissue]
-law = "neo_hookean"
-mu_kPa = 3.3557046979865772
-bulk_modulus_kPa = 166.66666666666666
-[cavities]
-pressure_mmHg = 7.5
-)";
+constexpr double kYoung = 10, kPoisson = 0.49;
+constexpr double kCompliancePressure = 0.02;  // kPa: strains of a per cent
+
+// μ = E / (2 (1 + ν)), κ = E / (3 (1 − 2ν)).
+std::string neo_hookean(double poisson, double pressure_kPa) {
+  std::ostringstream out;
+  out << std::setprecision(17)
+      << "[mesh]\nshape = \"land_ellipsoid\"\n[tissue]\nlaw = \"neo_hookean\"\nmu_kPa = "
+      << kYoung / (2 * (1 + poisson)) << "\nbulk_modulus_kPa = " << kYoung / (3 * (1 - 2 * poisson))
+      << "\n[cavities]\npressure_mmHg = " << pressure_kPa / kPa_per_mmHg << "\n";
+  return out.str();
+}
 
 constexpr auto kEndSystole = R"(
 [mesh]
@@ -62,15 +66,31 @@ double ellipsoid_segment_share(const TruncatedEllipsoid& shape, const std::vecto
 }
 
 const std::vector<BenchScene>& bench_scenes() {
-  static const std::vector<BenchScene> scenes{
-      {"ellipsoid_passive", "Passive inflation", land_ellipsoid(), kPassive, {{1.0}}},
-      {"end_systole", "End systole", land_ellipsoid(), kEndSystole, {{kPressure, healthy_tension}}},
-      {"end_systole_scar",
-       "End systole with a scar",
-       land_ellipsoid(),
-       kEndSystole,
-       {{kPressure, healthy_tension}, {kPressure, scar_tension}}},
-  };
+  static const std::vector<BenchScene> scenes = [] {
+    const auto shape = land_ellipsoid();
+    std::vector<BenchScene> out{
+        {"ellipsoid_passive",
+         "ellipsoid_passive",
+         "Passive inflation",
+         shape,
+         neo_hookean(kPoisson, 1),
+         {{1.0}}},
+        {"end_systole", "end_systole", "End systole", shape, kEndSystole, {{kPressure, healthy_tension}}},
+        {"end_systole_scar",
+         "end_systole_scar",
+         "End systole with a scar",
+         shape,
+         kEndSystole,
+         {{kPressure, healthy_tension}, {kPressure, scar_tension}}}};
+    for (const char* poisson : {"0.3", "0.4", "0.45", "0.49", "0.499", "0.4999"})
+      out.push_back({kCompliance,
+                     std::string("compliance_") + poisson,
+                     std::string("Compliance at Poisson's ratio ") + poisson,
+                     shape,
+                     neo_hookean(std::stod(poisson), kCompliancePressure),
+                     {{kCompliancePressure}}});
+    return out;
+  }();
   return scenes;
 }
 

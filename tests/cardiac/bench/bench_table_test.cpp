@@ -69,6 +69,12 @@ TEST(BenchTable, LeavesWhatDidNotConvergeWithoutErrors) {
               StartsWith("ellipsoid_passive,polyaffine,fast,2000,17,264,1320,0.5,0.25,,,,,,,cells,"));
 }
 
+TEST(BenchTable, QuotesSettings) {
+  auto results = two_rows();
+  results[0].rows[1].settings = "reduction.enrichment=[\"tt\"]";
+  EXPECT_THAT(bench_csv(results), HasSubstr(",\"reduction.enrichment=[\"\"tt\"\"]\"\n"));
+}
+
 TEST(BenchMarkdown, HasARowAModelAsWideAsItsHeader) {
   const std::string text = bench_markdown(two_rows());
   const auto cells = [&](const std::string& start) {
@@ -81,10 +87,21 @@ TEST(BenchMarkdown, HasARowAModelAsWideAsItsHeader) {
 }
 
 TEST(BenchFigure, MarksModelsAndNotTheReference) {
-  const std::string svg = bench_svg(two_rows());
+  auto results = two_rows();
+  EXPECT_THAT(bench_svg(results), Not(HasSubstr("Passive inflation")));  // one model makes no front
+  auto& rows = results[0].rows;
+  for (const int nodes : {5, 29, 61}) {
+    rows.push_back(BenchRow(rows[1]));
+    rows.back().control_nodes = nodes;
+  }
+  rows.push_back(BenchRow(rows[1]));
+  rows.back().dofs = 300;
+  rows.back().settings = "reduction.enrichment=[]";
+  const std::string svg = bench_svg(results);
   EXPECT_THAT(svg, HasSubstr("Passive inflation"));
   EXPECT_THAT(svg, HasSubstr("264 unknowns, 1320 points, 0.250 s, 6.50 %"));
   EXPECT_THAT(svg, Not(HasSubstr("10101 unknowns")));
+  EXPECT_THAT(svg, Not(HasSubstr("300 unknowns")));
   EXPECT_THAT(bench_svg({}), StartsWith("<svg"));
 }
 

@@ -10,16 +10,20 @@
 namespace cardiac {
 namespace {
 
-TEST(BenchScenes, AreTheThreeOfTheTask) {
+TEST(BenchScenes, AreThoseOfTheTask) {
   std::vector<std::string> names;
   for (const BenchScene& scene : bench_scenes()) names.push_back(scene.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"ellipsoid_passive", "end_systole", "end_systole_scar"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"ellipsoid_passive", "end_systole", "end_systole_scar",
+                                             "compliance_0.3", "compliance_0.4", "compliance_0.45",
+                                             "compliance_0.49", "compliance_0.499", "compliance_0.4999"}));
 }
 
 TEST(BenchScenes, AreValidProtocolsWithTheConstantsOfTheTask) {
   const auto law = [](std::size_t k) { return parse_protocol(bench_scenes()[k].protocol, "scene").tissue; };
   EXPECT_NEAR(law(0).mu_kPa, 10 / (2 * 1.49), 1e-12);
   EXPECT_NEAR(law(0).bulk_modulus_kPa, 10 / (3 * (1 - 2 * 0.49)), 1e-9);
+  EXPECT_NEAR(law(3).bulk_modulus_kPa, 10 / (3 * 0.4), 1e-9);
+  EXPECT_NEAR(law(8).bulk_modulus_kPa, 10 / (3 * 0.0002), 1e-6);
   for (const std::size_t k : {1, 2}) {
     EXPECT_EQ(law(k).law, protocol::TissueLaw::guccione);
     EXPECT_EQ(law(k).bulk_modulus_kPa, 300);
