@@ -182,26 +182,29 @@ void FieldEnergy::add_tangent(const Motion& motion, LinearSystem& system, double
         const PackedBlock& block = packed_[k];
         const Vector pressure = point_pressure(kin.p, k);
         std::vector<PackResponse> responses(block.num_packs());
-        for (int pack = 0; pack < block.num_packs(); ++pack)
+        for (int pack = 0; pack < block.num_packs(); ++pack) {
           respond(kin, used, k, pressure, pack, true, rate_factor, responses[pack]);
+          mirror(responses[pack]);
+        }
         if (!pressure_ && std::all_of(responses.begin(), responses.end(), without_tangent)) {
           K[slot].resize(0, 0);
           return;
         }
         block_stiffness(block, responses.data(), K[slot]);
+        if (scale != 1) K[slot] *= scale;
         if (!pressure_) return;
         std::vector<Mat3Pack> S(block.num_packs());
         for (int pack = 0; pack < block.num_packs(); ++pack)
           S[pack] = scaled_cofactor(kin.F[first_pack_[k] + pack], block.weight(pack));
         block_force_rows(block, S.data(), pressure_->blocks[k].values, rows[slot]);
         if (!global)
-          K[slot].noalias() +=
-              pressure_->bulk_modulus * rows[slot].transpose() * (inverse_mass_.block(k) * rows[slot]);
+          K[slot].noalias() += scale * pressure_->bulk_modulus * rows[slot].transpose() *
+                               (inverse_mass_.block(k) * rows[slot]);
       },
       [&](int k, int slot) {
         if (K[slot].size() == 0) return;
         const std::vector<int>& functions = packed_[k].functions();
-        system.add(functions, scale * K[slot]);
+        system.add(functions, K[slot]);
         if (!global) return;
         const auto& pressures = pressure_->blocks[k].functions;
         for (std::size_t b = 0; b < pressures.size(); ++b)
@@ -209,7 +212,12 @@ void FieldEnergy::add_tangent(const Motion& motion, LinearSystem& system, double
             D.row(pressures[b]).segment<3>(3 * functions[a]) +=
                 rows[slot].row(static_cast<Eigen::Index>(b)).segment<3>(static_cast<Eigen::Index>(3 * a));
       });
-  if (global) system.add_dense(scale * pressure_->bulk_modulus * D.transpose() * inverse_mass_.apply(D));
+  if (!global) return;
+  const Matrix weighted = scale * pressure_->bulk_modulus * inverse_mass_.apply(D);
+  Matrix gram = Matrix::Zero(D.cols(), D.cols());
+  gram.triangularView<Eigen::Lower>() += D.transpose() * weighted;
+  gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
+  system.add_dense(gram);
 }
 
 Vector FieldEnergy::pressure(const Vector& c) const {

@@ -30,7 +30,7 @@ class TileProduct {
   // Room for the rows at `depth` values of k.
   void start_chunk(int depth) {
     depth_ = depth;
-    W_.assign(static_cast<std::size_t>(panels_) * depth * kTileRows * kLanes, 0.0);
+    W_.resize(static_cast<std::size_t>(panels_) * depth * kTileRows * kLanes);
   }
   double* row(int row_pack, int k) {
     const int panel = row_pack / kTileRows, place = row_pack % kTileRows;
@@ -85,22 +85,36 @@ struct Component {
   int i, j;
 };
 
-// T = L_gᵀ A L_h at one pack, 3d_g × 3d_h, row r and column c at index r + 3 d_g c.
+// Y = LᵀX at one pack for 9×n X and 3d×n Y; entry (i, c) of X has index i x.row + c x.column.
+struct Strides {
+  int row, column;
+};
+void pull_back_columns(const Group& g, int pack, const Pack* X, Strides x, int columns, Pack* Y, Strides y) {
+  for (int e = 0; e < g.d; ++e)
+    for (int k = 0; k < 3; ++k) {
+      const int row = k + 3 * e;
+      if (!g.lifted) {
+        for (int c = 0; c < columns; ++c) Y[row * y.row + c * y.column] = X[row * x.row + c * x.column];
+        continue;
+      }
+      for (int c = 0; c < columns; ++c) Y[row * y.row + c * y.column] = Pack{};
+      const double* L = g.lift.data() + (static_cast<std::ptrdiff_t>(pack) * 3 * g.d + row) * 9 * kLanes;
+      for (int J = 0; J < 3; ++J) {
+        if (!g.present[J][e]) continue;
+        const Pack l[3] = {load(L + 3 * J * kLanes), load(L + (3 * J + 1) * kLanes),
+                           load(L + (3 * J + 2) * kLanes)};
+        const Pack* from = X + 3 * J * x.row;
+        for (int c = 0; c < columns; ++c, from += x.column)
+          Y[row * y.row + c * y.column] += l[0] * from[0] + l[1] * from[x.row] + l[2] * from[2 * x.row];
+      }
+    }
+}
+
+// T = L_gᵀ A L_h at one pack, 3d_g × 3d_h, row r and column c at index r + 3 d_g c; A with both triangles.
 void pull_back_tangent(const Group& g, const Group& h, int pack, const PackResponse& r, Pack* T) {
-  const auto entry = [&](int row, int column) -> const Pack& {
-    return row >= column ? r.A[row][column] : r.A[column][row];
-  };
-  Pack half[9][12];  // rows of A L_h
-  for (int row = 0; row < 9; ++row) {
-    Mat3Pack S;
-    for (int column = 0; column < 9; ++column) S.m[column] = entry(row, column);
-    pull_back(h, pack, S, half[row]);
-  }
-  for (int c = 0; c < 3 * h.d; ++c) {
-    Mat3Pack S;
-    for (int row = 0; row < 9; ++row) S.m[row] = half[row][c];
-    pull_back(g, pack, S, T + static_cast<std::ptrdiff_t>(3 * g.d) * c);
-  }
+  Pack half[12 * 9];  // L_hᵀA, 3d_h × 9
+  pull_back_columns(h, pack, r.A[0], {1, 9}, 9, half, {9, 1});
+  pull_back_columns(g, pack, half, {1, 9}, 3 * h.d, T, {1, 3 * g.d});
 }
 
 // Writes, for the points of pack `pack` (the `slot`-th of the chunk), rows(g) · T_ij of every component.

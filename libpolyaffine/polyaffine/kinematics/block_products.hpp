@@ -5,7 +5,7 @@
 namespace polyaffine {
 
 /// Stiffness Σ_q B_qᵀ A_q B_q of a block, (3·functions)², full storage, from the weighted tangents A of its
-/// packs (lower triangles; responses[p] of pack p). Products of tiles that stay in registers, of the
+/// packs (both triangles; responses[p] of pack p). Products of tiles that stay in registers, of the
 /// symmetric parts only the half that is needed.
 void block_stiffness(const PackedBlock& block, const PackResponse* responses, Matrix& K);
 

@@ -68,8 +68,10 @@ void add_group(const Group& g, int packs, const double* c, Mat3Pack* M) {
     for (int e = 0; e < d; ++e)
       for (int J = 0; J < 3; ++J)
         if (g.present[J][e])
+#pragma GCC unroll 3
           for (int k = 0; k < 3; ++k) {
             const double* L = lift_column(g, p, k + 3 * e) + 3 * kLanes * static_cast<std::ptrdiff_t>(J);
+#pragma GCC unroll 3
             for (int m = 0; m < 3; ++m) M[p](m, J) += load(L + m * kLanes) * Y[k + 3 * e];
           }
   }
@@ -142,12 +144,19 @@ void pull_back(const PackedBlock::Group& g, int pack, const Mat3Pack& S, Pack* Y
     for (int i = 0; i < 9; ++i) Y[i] = S.m[i];
     return;
   }
-  for (int j = 0; j < 3 * g.d; ++j) {
-    const double* L = lift_column(g, pack, j);
-    Y[j] = broadcast(0);
-    for (int J = 0; J < 3; ++J)
-      if (g.present[J][j / 3])
-        for (int m = 0; m < 3; ++m) Y[j] += load(L + (m + 3 * J) * kLanes) * S(m, J);
+  for (int e = 0; e < g.d; ++e) {
+    Pack y[3] = {};
+    for (int J = 0; J < 3; ++J) {
+      if (!g.present[J][e]) continue;
+#pragma GCC unroll 3
+      for (int k = 0; k < 3; ++k) {
+        const double* L = lift_column(g, pack, k + 3 * e) + 3 * kLanes * static_cast<std::ptrdiff_t>(J);
+#pragma GCC unroll 3
+        for (int m = 0; m < 3; ++m) y[k] += load(L + m * kLanes) * S.m[m + 3 * J];
+      }
+    }
+#pragma GCC unroll 3
+    for (int k = 0; k < 3; ++k) Y[k + 3 * e] = y[k];
   }
 }
 

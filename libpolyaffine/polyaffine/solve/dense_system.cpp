@@ -12,17 +12,21 @@ class DenseSystem : public LinearSystem {
 
   void set_zero() override { K_.setZero(); }
 
+  // Only the lower triangle is kept.
   void add(const std::vector<int>& functions, const Matrix& K) override {
     for (std::size_t b = 0; b < functions.size(); ++b)
       for (int j = 0; j < 3; ++j) {
-        auto column = K_.col(3 * functions[b] + j);
-        const auto local = K.col(static_cast<Eigen::Index>(3 * b + j));
-        for (std::size_t a = 0; a < functions.size(); ++a)
-          column.segment<3>(3 * functions[a]) += local.segment<3>(static_cast<Eigen::Index>(3 * a));
+        double* column = K_.col(3 * functions[b] + j).data();
+        const double* local = K.col(static_cast<Eigen::Index>(3 * b + j)).data();
+        for (const int a : functions) {
+          if (a >= functions[b])
+            for (int i = 0; i < 3; ++i) column[3 * a + i] += local[i];
+          local += 3;
+        }
       }
   }
 
-  void add_dense(const Matrix& K) override { K_ += K; }
+  void add_dense(const Matrix& K) override { K_.triangularView<Eigen::Lower>() += K; }
 
   bool factorise() override {
     for (std::size_t i = 0; i < fixed_.size(); ++i)
@@ -36,7 +40,7 @@ class DenseSystem : public LinearSystem {
     cholesky_.compute(K_);
     positive_ = cholesky_.info() == Eigen::Success;
     if (positive_) return true;
-    lu_.compute(K_);
+    lu_.compute(Matrix(K_.selfadjointView<Eigen::Lower>()));
     return lu_.rcond() > 1e-14;  // below this no digit of the solution is left
   }
 
