@@ -31,7 +31,7 @@ struct RunOptions {
   std::string out;
   std::string method;
   std::vector<std::string> overrides;
-  bool verify = false, dry_run = false, quiet = false;
+  bool verify = false, dry_run = false, quiet = false, verbose = false;
 };
 
 void print_plan(const std::vector<PlanItem>& items) {
@@ -115,6 +115,25 @@ void print_result(const BeatResult& result, const std::filesystem::path& out) {
             << " s; results in " << out.string() << '\n';
 }
 
+// Where the time of the beats went.
+void print_timing(const BeatResult& result) {
+  const SolveCost& c = result.cost;
+  const auto line = [](const char* what, long calls, double seconds) {
+    std::cout << "  " << std::left << std::setw(16) << what << std::right << std::setw(7)
+              << (calls > 0 ? std::to_string(calls) : "") << std::setw(9) << std::fixed
+              << std::setprecision(3) << seconds << " s\n";
+  };
+  std::cout << result.time_steps << " time steps, " << c.error_test_failures << " repeated for accuracy, "
+            << c.convergence_failures << " for convergence\n";
+  line("filling", 0, c.filling_s);
+  line("residuals", c.residuals, c.residual_s);
+  line("tangents", c.factorisations, c.tangent_s);
+  line("factorisations", c.factorisations, c.factorisation_s);
+  line("linear solves", c.linear_solves, c.linear_solve_s);
+  line("rest", 0,
+       result.wall_solve_s - c.filling_s - c.residual_s - c.tangent_s - c.factorisation_s - c.linear_solve_s);
+}
+
 void run(RunOptions options) {
   const auto start = std::chrono::steady_clock::now();
   if (!options.method.empty()) options.overrides.push_back("reduction.method=" + options.method);
@@ -151,6 +170,7 @@ void run(RunOptions options) {
     result.verification = verify_path(ventricle, protocol, path);
   write_results(ventricle, protocol, path, result, out, start);
   if (!options.quiet) print_result(result, out);
+  if (options.verbose && result.has_beat) print_timing(result);
   if (!path.completed)
     throw polyaffine::ComputationError(path.stop_reason + "; what was computed is in " + out.string());
 }
@@ -170,6 +190,7 @@ void add_run_command(CLI::App& app) {
       ->check(CLI::IsMember({"polyaffine", "fem"}));
   command->add_flag("--verify", options->verify, "also solve full order at end diastole and end systole");
   command->add_flag("--dry-run", options->dry_run, "check the input, print what would be built, and stop");
+  command->add_flag("--verbose", options->verbose, "also print where the time of the solve went");
   command->add_flag("--quiet", options->quiet, "no progress, no warnings, no summary");
   command->callback([options] { run(*options); });
 }

@@ -1,7 +1,9 @@
 #include "cardiac/heart/beat.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <iterator>
 
 #include "cardiac/heart/beat_system.hpp"
 
@@ -42,6 +44,9 @@ bool fill(const Ventricle& ventricle, const LeftHeartLoop& loop, const Vector& t
   return false;
 }
 
+// Time steps of one beat, some twenty times as many as one needs.
+constexpr int kMaxSteps = 5000;
+
 double stroke_volume(const std::vector<HeartState>& steps) {
   const auto by_volume = [](const HeartState& a, const HeartState& b) { return a.volume_mm3 < b.volume_mm3; };
   const auto [low, high] = std::minmax_element(steps.begin(), steps.end(), by_volume);
@@ -68,18 +73,26 @@ HeartPath run_beats(const Ventricle& ventricle, const Protocol& protocol, const 
   ++path.built["circulation"];
   Vector c = Vector::Zero(ventricle.num_coefficients());
   const Vector rest = ventricle.contraction->tension(0);
-  if (!fill(ventricle, loop, rest, path, c)) return path;
+  const auto begin = std::chrono::steady_clock::now();
+  const bool filled = fill(ventricle, loop, rest, path, c);
+  const double filling_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  path.cost.filling_s = filling_s;
+  if (!filled) return path;
 
   BeatSystem system(ventricle, loop);
   HeartState start{0, c, ventricle.cavity_volume(c), loop.filling_pressure_kPa,
                    protocol.circulation->initial_aortic_pressure_mmHg * kPa_per_mmHg};
   const auto options = system.options(protocol.time);
-  polyaffine::DaeIntegrator ida(system, options, 0, system.pack(start), system.initial_rate(start));
+  const Vector rate = system.start_consistently(start);
+  polyaffine::DaeIntegrator ida(system, options, 0, system.pack(start), rate);
   const auto finish = [&] {
     const auto counters = ida.counters();
     path.time_steps = static_cast<int>(counters.steps);
     path.newton_iterations += static_cast<int>(counters.newton_iterations);
-    path.factorisations = static_cast<int>(counters.factorisations);
+    path.cost = system.cost();
+    path.cost.filling_s = filling_s;
+    path.cost.error_test_failures = counters.error_test_failures;
+    path.cost.convergence_failures = counters.convergence_failures;
     path.simulated_ms = ida.time();
     return path;
   };
@@ -97,6 +110,14 @@ HeartPath run_beats(const Ventricle& ventricle, const Protocol& protocol, const 
         return finish();
       }
       path.steps.push_back(system.unpack(ida.time(), path.beat_start_ms, ida.y()));
+      if (std::ssize(path.steps) > kMaxSteps) {
+        path.stop_reason = "stopped at " + std::to_string(ida.time()) + " ms (beat " +
+                           std::to_string(beat + 1) + "): " + std::to_string(kMaxSteps) +
+                           " time steps in one beat; the last was " +
+                           std::to_string(path.steps.back().time_ms - path.steps.end()[-2].time_ms) +
+                           " ms; a softer tissue, more viscosity or larger tolerances (time.*) let it go on";
+        return finish();
+      }
       for (double t = path.beat_start_ms + interval * static_cast<double>(path.outputs.size());
            t <= ida.time() + 1e-9 && t <= end + 1e-9;
            t = path.beat_start_ms + interval * static_cast<double>(path.outputs.size())) {

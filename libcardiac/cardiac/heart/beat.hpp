@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <cardiac/circulation/left_heart_loop.hpp>
+#include <cardiac/heart/beat_result.hpp>
 #include <cardiac/heart/ventricle.hpp>
 #include <polyaffine/solve/dae.hpp>
 
@@ -22,7 +23,8 @@ struct HeartPath {
   std::vector<HeartState> steps;           ///< every accepted step of the last beat, begin and end included
   std::vector<HeartState> outputs;         ///< at multiples of the output interval
   std::vector<double> stroke_volumes_mm3;  ///< one a beat
-  int beats = 0, time_steps = 0, newton_iterations = 0, factorisations = 0;
+  int beats = 0, time_steps = 0, newton_iterations = 0;
+  SolveCost cost;
   double simulated_ms = 0;
   double beat_start_ms = 0;  ///< of the last beat, on the clock of the contraction
   double min_det_F = 1, max_det_F = 1;

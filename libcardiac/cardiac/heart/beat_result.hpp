@@ -59,6 +59,14 @@ struct GlobalStrain {
   double gls_percent = 0, gcs_percent = 0, grs_percent = 0, twist_deg = 0;
 };
 
+/// What the time integration of the beats took: calls, and the seconds spent in them.
+struct SolveCost {
+  long residuals = 0, factorisations = 0, linear_solves = 0;
+  long error_test_failures = 0, convergence_failures = 0;
+  double filling_s = 0;  ///< static filling before the first beat
+  double residual_s = 0, tangent_s = 0, factorisation_s = 0, linear_solve_s = 0;
+};
+
 struct PlanItem {
   std::string part;
   bool built = false;
@@ -82,6 +90,7 @@ struct BeatResult {
   int mesh_vertices = 0, mesh_tets = 0, dofs = 0, control_nodes = 0, integration_points = 0;
   int beats = 0, time_steps = 0, newton_iterations = 0;
   double simulated_time_s = 0;
+  SolveCost cost;  ///< zero without a beat
   double wall_setup_s = 0, wall_solve_s = 0, wall_output_s = 0, wall_total_s = 0;
   std::vector<SegmentInfo> segments;
   std::vector<Instant> instants;  ///< the last beat, time counted from its start

@@ -1,6 +1,7 @@
 #include "cardiac/heart/beat_system.hpp"
 
 #include <Eigen/LU>
+#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -9,6 +10,24 @@
 namespace cardiac {
 
 using polyaffine::Vector;
+
+namespace {
+
+// Adds the seconds of its life to a sum.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& sum_s) : sum_s_(sum_s) {}
+  ~Stopwatch() { sum_s_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double& sum_s_;
+  Clock::time_point start_ = Clock::now();
+};
+
+}  // namespace
 
 BeatSystem::BeatSystem(const Ventricle& ventricle, const LeftHeartLoop& loop)
     : ventricle_(ventricle),
@@ -26,6 +45,8 @@ const Vector& BeatSystem::tension(double t) {
 }
 
 bool BeatSystem::residual(double t, const Vector& y, const Vector& rate, Vector& out) {
+  const Stopwatch watch(cost_.residual_s);
+  ++cost_.residuals;
   const Vector c = y.head(num_c_);
   const Vector c_rate = rate.head(num_c_);
   const double p = y[num_c_ + 1];
@@ -53,12 +74,17 @@ bool BeatSystem::factorise(double t, const Vector& y, const Vector& rate, double
   const Vector c = y.head(num_c_);
   const Vector c_rate = rate.head(num_c_);
   const double p = y[num_c_ + 1];
-  const Vector& tau = tension(t);
-  system_->set_zero();
-  ventricle_.wall->add_tangent({c, {tau.data(), static_cast<std::size_t>(tau.size())}, &c_rate}, *system_, 1,
-                               alpha);
-  ventricle_.cavity->add_tangent({c}, *system_, -p);
-  for (const auto& spring : ventricle_.springs) spring->add_tangent({c}, *system_);
+  ++cost_.factorisations;
+  {
+    const Stopwatch watch(cost_.tangent_s);
+    const Vector& tau = tension(t);
+    system_->set_zero();
+    ventricle_.wall->add_tangent({c, {tau.data(), static_cast<std::size_t>(tau.size())}, &c_rate}, *system_,
+                                 1, alpha);
+    ventricle_.cavity->add_tangent({c}, *system_, -p);
+    for (const auto& spring : ventricle_.springs) spring->add_tangent({c}, *system_);
+  }
+  const Stopwatch watch(cost_.factorisation_s);
   if (!system_->factorise()) return false;
   volume_gradient_ = ventricle_.cavity->evaluate({c}).gradient;
   const auto& fixed = ventricle_.discretisation.fixed;
@@ -72,6 +98,8 @@ bool BeatSystem::factorise(double t, const Vector& y, const Vector& rate, double
 
 // Rows: K δc − g δp = r_c,  δV − gᵀδc = r_V,  α δV + a δp + b δp_c = r_q,  d δp + e δp_c = r_w.
 bool BeatSystem::solve(const Vector& rhs, Vector& x) {
+  const Stopwatch watch(cost_.linear_solve_s);
+  ++cost_.linear_solves;
   const Vector w = system_->solve(rhs.head(num_c_));
   const double base_volume = rhs[num_c_] + volume_gradient_.dot(w);
   const double compliance = volume_gradient_.dot(solved_gradient_);
@@ -98,11 +126,27 @@ HeartState BeatSystem::unpack(double t, double beat_start_ms, const Vector& y) c
   return {t - beat_start_ms, y.head(num_c_), y[num_c_], y[num_c_ + 1], y[num_c_ + 2]};
 }
 
-Vector BeatSystem::initial_rate(const HeartState& state) const {
-  const LoopRates rates = loop_rates(loop_, state.pressure_kPa, state.capacitor_pressure_kPa);
+Vector BeatSystem::start_consistently(HeartState& state) {
   Vector rate = Vector::Zero(size());
-  rate[num_c_] = rates.volume_mm3_per_ms;
-  rate[num_c_ + 2] = rates.capacitor_pressure_kPa_per_ms;
+  const double p_c = state.capacitor_pressure_kPa;
+  rate[num_c_ + 2] = loop_rates(loop_, state.pressure_kPa, p_c).capacitor_pressure_kPa_per_ms;
+  // So large that the elastic part of K + αC does not count.
+  constexpr double kAlpha = 1e8;
+  if (!factorise(state.time_ms, pack(state), rate, kAlpha)) return rate;
+  const Vector z = kAlpha * solved_gradient_;
+  const double compliance = z.dot(volume_gradient_);
+  double delta = 0;
+  for (int k = 0; k < 50; ++k) {
+    const LoopResidual loop =
+        loop_residual(loop_, compliance * delta, state.pressure_kPa + delta, p_c, rate[num_c_ + 2]);
+    const double step = loop.volume / (compliance + loop.volume_by_pressure);
+    delta -= step;
+    if (std::abs(step) <= 1e-14 * state.pressure_kPa) break;
+  }
+  state.pressure_kPa += delta;
+  rate.head(num_c_) = delta * z;
+  rate[num_c_] = compliance * delta;
+  rate[num_c_ + 2] = loop_rates(loop_, state.pressure_kPa, p_c).capacitor_pressure_kPa_per_ms;
   return rate;
 }
 

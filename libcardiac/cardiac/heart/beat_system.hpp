@@ -18,8 +18,12 @@ class BeatSystem : public polyaffine::DaeSystem {
 
   polyaffine::Vector pack(const HeartState& state) const;
   HeartState unpack(double t, double beat_start_ms, const polyaffine::Vector& y) const;
-  /// Rates consistent with the circulation, the wall at rest.
-  polyaffine::Vector initial_rate(const HeartState& state) const;
+  /// Moves the pressure of a wall in static equilibrium by the viscous pressure δ of the flow that its valves
+  /// let through, and returns the rates, so that the residual vanishes at the start: with z = C⁻¹ ∂V/∂c and C
+  /// the viscous tangent, ċ = δ z and V̇ = δ zᵀ∂V/∂c = q_mitral − q_aortic at p + δ, solved by Newton's
+  /// method. Without viscosity δ = 0 and ċ is the elastic motion at the rate V̇. On failure (a singular
+  /// tangent) the wall keeps its rest.
+  polyaffine::Vector start_consistently(HeartState& state);
   /// Tolerances per unknown. The error norm is a mean over all unknowns: volume and pressures are weighted so
   /// that they count as much as the whole wall, however many coefficients it has.
   polyaffine::DaeOptions options(const protocol::Time& time) const;
@@ -28,6 +32,8 @@ class BeatSystem : public polyaffine::DaeSystem {
   /// for the last Newton correction.
   double min_det() const { return min_det_; }
   double max_det() const { return max_det_; }
+  /// Calls so far and their time.
+  const SolveCost& cost() const { return cost_; }
 
  private:
   const polyaffine::Vector& tension(double t);
@@ -42,6 +48,7 @@ class BeatSystem : public polyaffine::DaeSystem {
   LoopResidual loop_slopes_{};
   double alpha_ = 0;
   double min_det_ = 1, max_det_ = 1;
+  SolveCost cost_;
 };
 
 }  // namespace cardiac

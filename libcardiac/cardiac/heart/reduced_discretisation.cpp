@@ -26,6 +26,8 @@ namespace {
 constexpr int kCandidateDegree = 4;
 // Polynomials kept exact in a cell, along u, ψ and the depth: fibres turn by 120° through the wall.
 constexpr polyaffine::CellDegree kCellDegree{4, 4, 8};
+// Total degree in u and ψ of the polynomials kept exact in a cell of a surface.
+constexpr int kSurfaceDegree = 4;
 
 std::vector<Monomial> monomials(const Protocol& protocol) {
   auto out = polyaffine::affine_monomials();
@@ -45,25 +47,6 @@ std::vector<std::vector<Monomial>> independent(const SegmentFrames& frames,
   const auto thin = [&](int last) { std::erase_if(out[last], [](const Monomial& m) { return m[1] == 1; }); };
   for (const FrameRing& ring : frames.layout().rings) thin(ring.first_frame + ring.nodes - 1);
   if (frames.num_frames() > frames.layout().num_nodes()) thin(frames.num_frames() - 1);
-  return out;
-}
-
-// One block a cell instead of one a face: few functions are seen by many faces.
-polyaffine::SurfacePoints by_cell(const polyaffine::SurfacePoints& points, const std::vector<int>& cell) {
-  std::vector<int> order(points.tet.size());
-  for (std::size_t q = 0; q < order.size(); ++q) order[q] = static_cast<int>(q);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return cell[a] < cell[b]; });
-  polyaffine::SurfacePoints out;
-  out.barycentric = points.barycentric(Eigen::all, order);
-  out.weights = points.weights(order);
-  out.X = points.X(Eigen::all, order);
-  out.X_xi = points.X_xi(Eigen::all, order);
-  out.X_eta = points.X_eta(Eigen::all, order);
-  for (std::size_t q = 0; q < order.size(); ++q) {
-    if (q == 0 || cell[order[q]] != cell[order[q - 1]]) out.starts.push_back(static_cast<int>(q));
-    out.tet.push_back(points.tet[order[q]]);
-  }
-  out.starts.push_back(static_cast<int>(order.size()));
   return out;
 }
 
@@ -115,17 +98,13 @@ Cells region_cells(const Anatomy& anatomy, const Discretisation& d, const WallPo
   return out;
 }
 
-// Tent cell, or else region, of each point of a surface.
-std::vector<int> surface_cells(const Anatomy& anatomy, const Discretisation& discretisation,
-                               const polyaffine::SurfacePoints& points) {
-  std::vector<int> out;
-  for (std::size_t q = 0; q < points.tet.size(); ++q) {
-    const CoordinateSample at =
-        anatomy.coordinates->sample(points.tet[q], points.barycentric.col(static_cast<Eigen::Index>(q)));
-    out.push_back(discretisation.frames ? discretisation.frames->cell(at.u, at.psi).index
-                                        : discretisation.region[points.tet[q]]);
-  }
-  return out;
+// Few points a cell of the surface instead of those of every face.
+polyaffine::SurfacePoints compressed(const Anatomy& anatomy, const Discretisation& discretisation,
+                                     const polyaffine::SurfacePoints& points) {
+  const WallPoints places{points.tet, points.barycentric, points.weights, points.starts};
+  const Cells cells = discretisation.frames ? tent_cells(anatomy, *discretisation.frames, places)
+                                            : region_cells(anatomy, discretisation, places);
+  return polyaffine::compress_surface_cells(points, cells.cell, cells.place.topRows<2>(), kSurfaceDegree);
 }
 
 // Tent weights, with boundary frames at the base that carry only functions with a factor l.
@@ -203,7 +182,7 @@ Discretisation reduced_discretisation(const Anatomy& anatomy, const Protocol& pr
                    : polyaffine::compress_cells(candidates, cells.cell, cells.place, kCellDegree);
   add_surface_points(anatomy, protocol, geometry, 4, out);
   for (auto* points : {&out.cavity_points, &out.epicardium_points})
-    if (!points->tet.empty()) *points = by_cell(*points, surface_cells(anatomy, out, *points));
+    if (!points->tet.empty()) *points = compressed(anatomy, out, *points);
   return out;
 }
 

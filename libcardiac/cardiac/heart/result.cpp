@@ -105,6 +105,7 @@ BeatResult describe_path(const Ventricle& ventricle, const std::vector<ControlNo
   out.beats = path.beats;
   out.time_steps = path.time_steps;
   out.newton_iterations = path.newton_iterations;
+  out.cost = path.cost;
   out.simulated_time_s = path.simulated_ms / ms_per_s;
   out.min_det_F = path.min_det_F;
   out.max_det_F = path.max_det_F;

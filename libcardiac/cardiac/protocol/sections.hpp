@@ -119,9 +119,9 @@ struct Time {
   double heart_rate_bpm = 75;
   int max_beats = 10;
   double limit_cycle_tolerance_percent = 1;  ///< of the stroke volume, between two beats
-  double relative_tolerance = 1e-4;
-  double absolute_tolerance_mm = 1e-3;
-  double absolute_tolerance_mmHg = 1e-2;
+  double relative_tolerance = 1e-3;
+  double absolute_tolerance_mm = 1e-2;
+  double absolute_tolerance_mmHg = 0.1;
   double max_step_ms = 10;
   int load_steps = 10;       ///< of a static loading
   double duration_ms = 800;  ///< of a contraction without circulation

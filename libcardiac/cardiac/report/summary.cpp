@@ -33,6 +33,24 @@ Json ventricle_json(const VentricleSummary& v, bool has_beat) {
   return json;
 }
 
+// Seconds of the solve and what they went to; the rest is the integrator's own work and the output states.
+Json timing_of(const BeatResult& r) {
+  if (!r.has_beat) return nullptr;
+  const SolveCost& c = r.cost;
+  const double known = c.filling_s + c.residual_s + c.tangent_s + c.factorisation_s + c.linear_solve_s;
+  return {{"residuals", c.residuals},
+          {"factorisations", c.factorisations},
+          {"linear_solves", c.linear_solves},
+          {"error_test_failures", c.error_test_failures},
+          {"convergence_failures", c.convergence_failures},
+          {"filling_s", number(c.filling_s)},
+          {"residual_s", number(c.residual_s)},
+          {"tangent_s", number(c.tangent_s)},
+          {"factorisation_s", number(c.factorisation_s)},
+          {"linear_solve_s", number(c.linear_solve_s)},
+          {"rest_s", number(r.wall_solve_s - known)}};
+}
+
 Json protocol_of(const RunInfo& info) {
   Json protocol = Json::parse(info.protocol_json, nullptr, false);
   if (protocol.is_discarded()) throw InputError("the resolved protocol of the run is not valid JSON");
@@ -85,6 +103,7 @@ std::string summary_text(const BeatResult& r, const RunInfo& info) {
                  {"solve", number(r.wall_solve_s)},
                  {"output", number(r.wall_output_s)},
                  {"total", number(r.wall_total_s)}}},
+               {"timing", timing_of(r)},
                {"real_time_factor", number(r.wall_solve_s / r.simulated_time_s)},
                {"ventricles", ventricles},
                {"strain",

@@ -1,6 +1,7 @@
 #include "polyaffine/kinematics/block_products.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace polyaffine {
 namespace {
@@ -20,6 +21,7 @@ class TileProduct {
       : panels_((row_packs + kTileRows - 1) / kTileRows),
         column_tiles_((columns + kTileColumns - 1) / kTileColumns),
         last_(panels_, 0),
+        offset_(row_packs),
         tiles_(static_cast<std::size_t>(panels_) * column_tiles_ * kTile, 0.0) {}
 
   void need_column(int row_pack, int column) {
@@ -31,11 +33,10 @@ class TileProduct {
   void start_chunk(int depth) {
     depth_ = depth;
     W_.resize(static_cast<std::size_t>(panels_) * depth * kTileRows * kLanes);
+    for (int s = 0; s < std::ssize(offset_); ++s)
+      offset_[s] = ((s / kTileRows) * depth * kTileRows + s % kTileRows) * kLanes;
   }
-  double* row(int row_pack, int k) {
-    const int panel = row_pack / kTileRows, place = row_pack % kTileRows;
-    return W_.data() + ((static_cast<std::ptrdiff_t>(panel) * depth_ + k) * kTileRows + place) * kLanes;
-  }
+  double* row(int row_pack, int k) { return W_.data() + offset_[row_pack] + k * kTileRows * kLanes; }
   // R: `stride` numbers a k, of which the first columns are multiplied; padded to whole column tiles.
   void multiply(const double* R, std::ptrdiff_t stride) {
     for (int panel = 0; panel < panels_; ++panel)
@@ -77,7 +78,7 @@ class TileProduct {
   }
 
   int panels_, column_tiles_, depth_ = 0;
-  std::vector<int> last_;
+  std::vector<int> last_, offset_;
   std::vector<double> W_, tiles_;
 };
 

@@ -1,7 +1,9 @@
 #include "polyaffine/quadrature/cell_rule.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 #include <polyaffine/quadrature/moment_compression.hpp>
 
@@ -78,6 +80,47 @@ WallPoints compress_cells(const WallPoints& candidates, const std::vector<int>& 
     weights.push_back(rule.weights);
   }
   return select(candidates, chosen, weights);
+}
+
+SurfacePoints compress_surface_cells(const SurfacePoints& candidates, const std::vector<int>& cell,
+                                     const Matrix& coordinates, int degree) {
+  std::vector<int> all;
+  std::vector<double> factors;  // on the weights of the candidates
+  SurfacePoints out;
+  out.starts.push_back(0);
+  for (const auto& points : members(cell)) {
+    std::vector<Vector> columns;
+    Vector area(static_cast<Eigen::Index>(points.size()));
+    for (const int p : points) {
+      const Vec3 normal = Vec3(candidates.X_xi.col(p)).cross(Vec3(candidates.X_eta.col(p)));
+      area[static_cast<Eigen::Index>(columns.size())] = candidates.weights[p] * normal.norm();
+      const Vector Lx = legendre(degree, coordinates(0, p)), Ly = legendre(degree, coordinates(1, p));
+      std::vector<double> features;
+      for (int a = 0; a <= degree; ++a)
+        for (int b = 0; a + b <= degree; ++b) {
+          features.push_back(Lx[a] * Ly[b]);
+          for (int k = 0; k < 3 && a + b <= degree / 2; ++k)
+            features.push_back(Lx[a] * Ly[b] * normal[k] / normal.norm());
+        }
+      columns.emplace_back(Eigen::Map<const Vector>(features.data(), std::ssize(features)));
+    }
+    Matrix features(columns[0].size(), area.size());
+    for (std::size_t p = 0; p < columns.size(); ++p) features.col(static_cast<Eigen::Index>(p)) = columns[p];
+    const CompressedRule rule = compress_moments(features, area);
+    for (std::size_t k = 0; k < rule.points.size(); ++k) {
+      all.push_back(points[rule.points[k]]);
+      factors.push_back(rule.weights[static_cast<Eigen::Index>(k)] / area[rule.points[k]]);
+    }
+    out.starts.push_back(static_cast<int>(all.size()));
+  }
+  for (const int p : all) out.tet.push_back(candidates.tet[p]);
+  out.barycentric = candidates.barycentric(Eigen::all, all);
+  out.weights =
+      candidates.weights(all).array() * Eigen::Map<const Eigen::ArrayXd>(factors.data(), std::ssize(factors));
+  out.X = candidates.X(Eigen::all, all);
+  out.X_xi = candidates.X_xi(Eigen::all, all);
+  out.X_eta = candidates.X_eta(Eigen::all, all);
+  return out;
 }
 
 WallPoints group_cells(const WallPoints& candidates, const std::vector<int>& cell) {

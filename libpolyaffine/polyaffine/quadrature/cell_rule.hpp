@@ -19,6 +19,12 @@ using CellDegree = std::array<int, 3>;
 WallPoints compress_cells(const WallPoints& candidates, const std::vector<int>& cell,
                           const Points& coordinates, const CellDegree& degree);
 
+/// The same for a surface, with two cell coordinates (2 × points): the areas and the vector areas n dA of
+/// every cell are kept exactly against the polynomials P_a(x)P_b(y) of total degree up to `degree` and half
+/// of it. So the closed integral of n vanishes as before, and a pressure does no work on a translation.
+SurfacePoints compress_surface_cells(const SurfacePoints& candidates, const std::vector<int>& cell,
+                                     const Matrix& coordinates, int degree);
+
 /// The candidates themselves, sorted into one block a cell.
 WallPoints group_cells(const WallPoints& candidates, const std::vector<int>& cell);
 

@@ -90,6 +90,17 @@ TEST(CommandLine, OptionsReachThePlan) {
   EXPECT_THAT(region.out, testing::ContainsRegex("\nregions +built"));
 }
 
+TEST(CommandLine, VerboseTellsWhereTheTimeWent) {
+  const TemporaryFolder folder;
+  const auto run = run_program("run --verbose " PROJECT_DIR
+                               "/protocols/healthy_lv.toml --set output.figures=false --set "
+                               "output.mesh_series=false --set time.max_beats=1 --out " +
+                               folder.path.string());
+  EXPECT_EQ(run.status, 0) << run.err;
+  for (const char* part : {"residuals", "tangents", "factorisations", "linear solves"})
+    EXPECT_THAT(run.out, testing::ContainsRegex(std::string(part) + " +[0-9]+ +[0-9.]+ s")) << part;
+}
+
 TEST(CommandLine, WarningsGoToStderrUnlessQuiet) {
   const TemporaryFolder folder;
   const auto arguments = "run --dry-run --set tissue.C_kPa=2 " + shape_protocol(folder);

@@ -129,6 +129,34 @@ TEST(BeatSystem, ResidualIsThatOfItsParts) {
   EXPECT_FALSE(system.residual(p.t, p.y, p.rate, r));  // turned inside out
 }
 
+TEST(BeatSystem, StartIsConsistentWithTheFlowOfTheValves) {
+  for (const char* viscosity : {"100", "0"}) {
+    SCOPED_TRACE(viscosity);
+    const LandBeat beat({std::string("tissue.viscosity_kPa_ms=") + viscosity});
+    const LeftHeartLoop loop = left_heart_loop(*beat.protocol.circulation);
+    BeatSystem system(beat.ventricle, loop);
+    const Vector rest = beat.ventricle.contraction->tension(0);
+    Vector c = Vector::Zero(beat.ventricle.num_coefficients());
+    const auto linear = beat.ventricle.make_system();
+    ASSERT_TRUE(polyaffine::load_stepping(loaded_ventricle(beat.ventricle, loop.filling_pressure_kPa, rest),
+                                          *linear, c)
+                    .converged());
+    HeartState state{0, c, beat.ventricle.cavity_volume(c), loop.filling_pressure_kPa, 80 * kPa_per_mmHg};
+    const auto n = c.size();
+    Vector at_rest, start;
+    ASSERT_TRUE(system.residual(0, system.pack(state), Vector::Zero(system.size()), at_rest));
+    EXPECT_GT(std::abs(at_rest[n + 1]), 1e-2);  // the mitral valve lets blood through
+    const Vector rate = system.start_consistently(state);
+    ASSERT_TRUE(system.residual(0, system.pack(state), rate, start));
+    const Vector g = beat.ventricle.cavity->evaluate({c}).gradient;
+    EXPECT_LT(start.head(n).norm(), 1e-6 * loop.filling_pressure_kPa * g.norm());
+    EXPECT_NEAR(start[n + 1], 0, 1e-9);
+    EXPECT_NEAR(start[n + 2], 0, 1e-9);
+    EXPECT_NEAR(g.dot(rate.head(n)), rate[n], 1e-6 * std::abs(rate[n]));
+    EXPECT_GT(rate[n], 0);
+  }
+}
+
 TEST(BeatSystem, ClosedVentricleKeepsItsVolumeThroughABeat) {
   // Arteries under a pressure that the ventricle does not reach: it contracts and relaxes at one volume.
   const testing::HeartRun& healthy = testing::shipped_run("healthy_lv");

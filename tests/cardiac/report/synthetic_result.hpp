@@ -38,6 +38,14 @@ inline BeatResult synthetic_beat(bool infarct = false) {
   r.has_beat = r.completed = true;
   r.mesh_vertices = 1893, r.mesh_tets = 6542, r.dofs = 204, r.control_nodes = 17, r.integration_points = 2400;
   r.beats = 5, r.time_steps = 1834, r.newton_iterations = 5210, r.simulated_time_s = 4;
+  r.cost = {.residuals = 5400,
+            .factorisations = 610,
+            .linear_solves = 5210,
+            .filling_s = 0.11,
+            .residual_s = 1.3,
+            .tangent_s = 0.9,
+            .factorisation_s = 0.4,
+            .linear_solve_s = 0.2};
   r.wall_setup_s = 1.254, r.wall_solve_s = 3.127, r.wall_output_s = 0.412, r.wall_total_s = 4.793;
   r.min_det_F = 0.93, r.max_det_F = 1.06;
   r.strain = {-18.42, -21.3, 41.7, 12.6};

@@ -108,6 +108,14 @@ TEST(Summary, HasEveryKeyOfTheInterface) {
     EXPECT_TRUE(json.at(key).is_number()) << key;
   for (const char* key : {"setup", "solve", "output", "total"})
     EXPECT_TRUE(json.at("wall_time_s").at(key).is_number()) << key;
+  EXPECT_EQ(json.at("timing").at("residuals"), 5400);
+  EXPECT_EQ(json.at("timing").at("factorisations"), 610);
+  EXPECT_EQ(json.at("timing").at("linear_solves"), 5210);
+  double seconds = 0;
+  for (const char* key :
+       {"filling_s", "residual_s", "tangent_s", "factorisation_s", "linear_solve_s", "rest_s"})
+    seconds += json.at("timing").at(key).get<double>();
+  EXPECT_NEAR(seconds, r.wall_solve_s, 1e-8);
   EXPECT_NEAR(json.at("real_time_factor").get<double>(), 3.127 / 4, 1e-9);  // nine digits
   const auto& lv = json.at("ventricles").at("lv");
   EXPECT_EQ(lv.at("edv_mL"), 121.4);

@@ -76,6 +76,40 @@ TEST(CellRule, KeepsTheMomentsOfEveryCellWithFewPositiveWeights) {
   EXPECT_GT(beyond, 1e-7);  // what was not asked for is not kept
 }
 
+TEST(CellRule, CompressedSurfaceKeepsAreasAndVectorAreasOfEveryCell) {
+  // The faces of a cube, cut at x = 0.4 into two cells that each go around it.
+  const Cells cells;
+  const SurfacePoints all = LagrangeBasis(cells.mesh, 1).surface_points(cells.mesh, {1, 2, 3, 4, 5, 6}, 4);
+  std::vector<int> cell;
+  Matrix place(2, all.X.cols());
+  for (Eigen::Index q = 0; q < all.X.cols(); ++q) {
+    cell.push_back(all.X(0, q) > 0.4 ? 1 : 0);
+    place.col(q) << all.X(1, q), all.X(2, q);
+  }
+  const SurfacePoints rule = compress_surface_cells(all, cell, place, 4);
+  ASSERT_EQ(rule.starts.size(), 3U);
+  EXPECT_LT(rule.X.cols(), all.X.cols() / 4);
+  EXPECT_GT(rule.weights.minCoeff(), 0);
+  // Moments over the points with x on one side: ∫ y^a z^b dA and ∫ y^a z^b n dA.
+  const auto moments = [](const SurfacePoints& points, bool right, int a, int b) {
+    Vec4 sum = Vec4::Zero();
+    for (Eigen::Index q = 0; q < points.X.cols(); ++q) {
+      if ((points.X(0, q) > 0.4) != right) continue;
+      const Vec3 n = Vec3(points.X_xi.col(q)).cross(Vec3(points.X_eta.col(q)));
+      const double f = points.weights[q] * std::pow(points.X(1, q), a) * std::pow(points.X(2, q), b);
+      sum += f * Vec4(n.norm(), n.x(), n.y(), n.z());
+    }
+    return sum;
+  };
+  for (const bool right : {false, true})
+    for (int a = 0; a <= 4; ++a)
+      for (int b = 0; a + b <= 4; ++b) {
+        const Vec4 error = moments(rule, right, a, b) - moments(all, right, a, b);
+        EXPECT_NEAR(error[0], 0, 1e-11) << a << b;
+        if (a + b <= 2) EXPECT_LT(error.norm(), 1e-11) << a << b;
+      }
+}
+
 TEST(CellRule, PointsStayInTheirCells) {
   const Cells cells;
   const WallPoints rule = compress_cells(cells.candidates, cells.cell, cells.coordinates, kDegree);
