@@ -1,6 +1,7 @@
 #include "polyaffine/quadrature/cell_rule.hpp"
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include <cmath>
 
@@ -106,7 +107,9 @@ TEST(CellRule, CompressedSurfaceKeepsAreasAndVectorAreasOfEveryCell) {
       for (int b = 0; a + b <= 4; ++b) {
         const Vec4 error = moments(rule, right, a, b) - moments(all, right, a, b);
         EXPECT_NEAR(error[0], 0, 1e-11) << a << b;
-        if (a + b <= 2) EXPECT_LT(error.norm(), 1e-11) << a << b;
+        if (a + b <= 2) {
+          EXPECT_LT(error.norm(), 1e-11) << a << b;
+        }
       }
 }
 
