@@ -44,8 +44,8 @@ bool fill(const Ventricle& ventricle, const LeftHeartLoop& loop, const Vector& t
   return false;
 }
 
-// Time steps of one beat, some twenty times as many as one needs.
-constexpr int kMaxSteps = 5000;
+// Time steps of one beat, some ten times as many as one needs.
+constexpr int kMaxSteps = 2000;
 
 double stroke_volume(const std::vector<HeartState>& steps) {
   const auto by_volume = [](const HeartState& a, const HeartState& b) { return a.volume_mm3 < b.volume_mm3; };
