@@ -183,7 +183,7 @@ Table tissue_table() {
            of_law("saint_venant_kirchhoff", "", {0, 0.4999}, "Poisson's ratio", "nearly incompressible"))
       .key("bulk_modulus_kPa", &Tissue::bulk_modulus_kPa,
            {.unit = "kPa",
-            .range = above_zero(1e7),
+            .range = above_zero(1e8),
             .meaning = "bulk modulus of the volumetric energy",
             .source = "a hundred times the shear modulus of soft muscle",
             .used_with = "law",

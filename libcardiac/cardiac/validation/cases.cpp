@@ -1,4 +1,5 @@
 #include <cardiac/validation/cube.hpp>
+#include <cardiac/validation/ellipsoid.hpp>
 #include <cardiac/validation/land.hpp>
 
 #include "cardiac/validation/check.hpp"
@@ -8,7 +9,9 @@ namespace cardiac {
 const std::vector<ValidationCase>& validation_cases() {
   static const std::vector<ValidationCase> cases{
       {"land", "cardiac mechanics verification of Land et al. 2015, full order", validate_land},
-      {"cube", "the poly-affine paper's Table 1, and the cube between no-slip platens", validate_cube}};
+      {"cube", "the poly-affine paper's Table 1, and the cube between no-slip platens", validate_cube},
+      {"ellipsoid", "the poly-affine paper's truncated ellipsoid, zones against full order",
+       validate_ellipsoid}};
   return cases;
 }
 

@@ -61,6 +61,8 @@ class FrameBasis : public Basis {
   /// Index of the function of a frame with a monomial, −1 when it has none.
   int function(int frame, const Monomial& monomial) const;
   const FrameField& field() const { return *field_; }
+  /// The functions of each frame, without repetitions.
+  const std::vector<FrameFunctions>& frames() const { return frames_; }
 
  private:
   std::shared_ptr<const FrameField> field_;
