@@ -10,7 +10,7 @@ namespace cardiac {
 namespace {
 
 std::string stroke(const std::string& colour, double width) {
-  return "stroke=\"" + colour + "\" stroke-width=\"" + coordinate(width) + "\" fill=\"none\"";
+  return "stroke=\"" + colour + "\" stroke-width=\"" + coordinate(width) + "\"";
 }
 
 void draw_legend(Svg& svg, DrawPoint at, const std::string& name, const std::string& colour) {
