@@ -51,6 +51,10 @@ class Reader {
     expect(json_.is_number_integer(), "an integer");
     value = json_.get<int>();
   }
+  void operator>>(long& value) const {
+    expect(json_.is_number_integer(), "an integer");
+    value = json_.get<long>();
+  }
   void operator>>(std::uint64_t& value) const {
     expect(json_.is_number_unsigned(), "a non-negative integer");
     value = json_.get<std::uint64_t>();
@@ -88,6 +92,19 @@ void read_ventricles(const Reader& reader, BeatResult& r) {
     json.at("ed_time_ms") >> v.ed_time_ms;
     json.at("es_time_ms") >> v.es_time_ms;
   }
+}
+
+void read_timing(const Reader& reader, SolveCost& c) {
+  reader.at("residuals") >> c.residuals;
+  reader.at("factorisations") >> c.factorisations;
+  reader.at("linear_solves") >> c.linear_solves;
+  reader.at("error_test_failures") >> c.error_test_failures;
+  reader.at("convergence_failures") >> c.convergence_failures;
+  reader.at("filling_s") >> c.filling_s;
+  reader.at("residual_s") >> c.residual_s;
+  reader.at("tangent_s") >> c.tangent_s;
+  reader.at("factorisation_s") >> c.factorisation_s;
+  reader.at("linear_solve_s") >> c.linear_solve_s;
 }
 
 void read_lists(const Reader& reader, BeatResult& r) {
@@ -148,6 +165,7 @@ StoredResult parse_summary(const std::string& text, const std::filesystem::path&
   reader.at("wall_time_s").at("solve") >> r.wall_solve_s;
   reader.at("wall_time_s").at("output") >> r.wall_output_s;
   reader.at("wall_time_s").at("total") >> r.wall_total_s;
+  if (r.has_beat) read_timing(reader.at("timing"), r.cost);
   read_ventricles(reader.at("ventricles"), r);
   reader.at("strain").at("gls_percent") >> r.strain.gls_percent;
   reader.at("strain").at("gcs_percent") >> r.strain.gcs_percent;
