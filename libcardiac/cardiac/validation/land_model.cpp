@@ -64,7 +64,7 @@ struct Model {
   }
 
   LandSolution solve(const std::string& name) {
-    const auto system = sparse_system({&wall->table(), &surface->table()}, problem.fixed);
+    const auto system = sparse_system({&wall->table(), &surface->table()}, problem.fixed, true);
     LoadOptions options;
     options.largest_step = 0.25;
     options.newton.tolerance = 1e-6;

@@ -15,8 +15,8 @@ namespace {
 // b = coupled[start[b]] < ... ; each couple is a 3×3 block, the diagonal one lower triangular.
 class SparseSystem : public LinearSystem {
  public:
-  SparseSystem(const std::vector<const FieldTable*>& tables, std::vector<char> fixed)
-      : fixed_(std::move(fixed)) {
+  SparseSystem(const std::vector<const FieldTable*>& tables, std::vector<char> fixed, bool definite_only)
+      : fixed_(std::move(fixed)), definite_only_(definite_only) {
     build_pattern(tables);
     fixed_.resize(columns_.size() - 1, 0);
     cholmod_l_start(&common_);
@@ -68,7 +68,7 @@ class SparseSystem : public LinearSystem {
     common_.status = CHOLMOD_OK;
     cholmod_l_factorize(&A, factor_, &common_);
     positive_ = common_.status == CHOLMOD_OK && static_cast<std::size_t>(factor_->minor) == factor_->n;
-    return positive_ || factorise_indefinite();
+    return positive_ || (!definite_only_ && factorise_indefinite());
   }
 
   Matrix solve(const Matrix& rhs) const override {
@@ -163,6 +163,7 @@ class SparseSystem : public LinearSystem {
   }
 
   std::vector<char> fixed_;
+  bool definite_only_;
   std::vector<int> start_, coupled_;
   std::vector<SuiteSparse_long> columns_, rows_;
   std::vector<double> values_;
@@ -177,8 +178,8 @@ class SparseSystem : public LinearSystem {
 }  // namespace
 
 std::unique_ptr<LinearSystem> sparse_system(const std::vector<const FieldTable*>& tables,
-                                            const std::vector<char>& fixed) {
-  return std::make_unique<SparseSystem>(tables, fixed);
+                                            const std::vector<char>& fixed, bool definite_only) {
+  return std::make_unique<SparseSystem>(tables, fixed, definite_only);
 }
 
 }  // namespace polyaffine
