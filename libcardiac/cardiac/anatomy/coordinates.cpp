@@ -7,7 +7,6 @@
 #include <sstream>
 
 #include <polyaffine/core/error.hpp>
-#include <polyaffine/core/monotone_cubic.hpp>
 #include <polyaffine/geometry/laplace.hpp>
 #include <polyaffine/mesh/surface.hpp>
 
@@ -23,8 +22,19 @@ using polyaffine::Vector;
 
 namespace {
 
-// Share of the wall thickness over which the radial direction is smoothed.
-constexpr double kSmoothing = 0.3;
+// Of the polynomial whose direction is the radial one.
+constexpr int kRadialDegree = 5;
+
+// A unit vector v/|v| with its derivatives, column J by X_J.
+struct Direction {
+  Vec3 value;
+  Mat3 gradient;
+};
+Direction direction(const Vec3& v, const Mat3& gradient) {
+  const double length = v.norm();
+  const Vec3 unit = v / length;
+  return {unit, (gradient - unit * (unit.transpose() * gradient)) / length};
+}
 
 void require_label(const polyaffine::TetMesh& mesh, int label, const char* name) {
   const std::set<int> labels(mesh.boundary_labels().begin(), mesh.boundary_labels().end());
@@ -95,7 +105,6 @@ VentricularCoordinates::VentricularCoordinates(const polyaffine::TetMesh& mesh, 
       mesh, 2, options.midpoints ? *options.midpoints : polyaffine::smooth_midpoints(mesh));
   solve_transmural(mesh, labels);
   solve_apicobasal(mesh, labels);
-  build_axes();
 }
 
 void VentricularCoordinates::find_axis(const polyaffine::TetMesh& mesh, const SurfaceLabels& labels,
@@ -114,91 +123,115 @@ void VentricularCoordinates::find_axis(const polyaffine::TetMesh& mesh, const Su
   septal_ = -axis_.cross(anterior_);
 }
 
+Vec3 VentricularCoordinates::from_axis(const Vec3& X) const {
+  const Vec3 d = X - base_centre_;
+  return d - d.dot(axis_) * axis_;
+}
+
 void VentricularCoordinates::solve_transmural(const polyaffine::TetMesh& mesh, const SurfaceLabels& labels) {
   std::vector<polyaffine::NodeValue> values;
   for (const int n : space_->surface_nodes(mesh, {labels.endo})) values.push_back({n, 0.0});
   for (const int n : space_->surface_nodes(mesh, {labels.epi})) values.push_back({n, 1.0});
-  t_ = polyaffine::solve_laplace(*space_, values);
+  const Vector harmonic = polyaffine::solve_laplace(*space_, values);
+  const polyaffine::WallPoints points = space_->wall_points(3);
+  t_ = polyaffine::solve_diffusion(
+      *space_, points,
+      [&](std::size_t q) {
+        const auto s = space_->sample(points.tet[q], points.barycentric.col(static_cast<Eigen::Index>(q)));
+        return polyaffine::DiffusionPoint{(s.gradient * harmonic(s.functions)).norm() * Mat3::Identity()};
+      },
+      values);
+  Points X(3, points.barycentric.cols()), gradient(3, X.cols());
+  for (Eigen::Index q = 0; q < X.cols(); ++q) {
+    const auto s = space_->sample(points.tet[q], points.barycentric.col(q));
+    X.col(q) = space_->nodes()(Eigen::all, s.functions) * s.N;
+    gradient.col(q) = s.gradient * t_(s.functions);
+  }
+  radial_.emplace(X, gradient, points.weights, kRadialDegree);
 }
 
 void VentricularCoordinates::solve_apicobasal(const polyaffine::TetMesh& mesh, const SurfaceLabels& labels) {
-  // A singular line needs a core with nodes in it: half an edge about the axis, in the wall below the cavity.
-  const double edge = std::cbrt(6 * std::sqrt(2.0) * mesh.volume() / mesh.num_tets());
   std::vector<polyaffine::NodeValue> values;
-  for (double core = 0.5 * edge; values.empty(); core *= 1.2)
-    for (int n = 0; n < space_->num_functions(); ++n) {
-      const Vec3 d = space_->nodes().col(n) - base_centre_;
-      const double height = d.dot(axis_);
-      if (height < -0.9 * cavity_length_ && (d - height * axis_).norm() < core) values.push_back({n, 0.0});
-    }
-  for (const int n : space_->surface_nodes(mesh, {labels.base})) values.push_back({n, 1.0});
-  const Vector raw = polyaffine::solve_laplace(*space_, values);
+  for (const int n : space_->surface_nodes(mesh, {labels.base}))
+    values.push_back({n, 1 / from_axis(space_->nodes().col(n)).norm()});
+  const polyaffine::WallPoints points = space_->wall_points(4);
+  slope_ = polyaffine::solve_diffusion(
+      *space_, points,
+      [&](std::size_t q) {
+        const auto k = static_cast<Eigen::Index>(q);
+        const auto s = space_->sample(points.tet[q], points.barycentric.col(k));
+        const Vec3 d = from_axis(space_->nodes()(Eigen::all, s.functions) * s.N);
+        const double r = d.norm();
+        return polyaffine::DiffusionPoint{(s.gradient * t_(s.functions)).norm() / r * Mat3::Identity(), r,
+                                          d / r};
+      },
+      values);
 
-  constexpr int kLevels = 40;
-  Vector volume = Vector::Zero(kLevels);
-  Vector flux = Vector::Zero(kLevels);
-  const polyaffine::WallPoints points = space_->wall_points(2);
+  rest_.resize(slope_.size());
+  for (Eigen::Index n = 0; n < slope_.size(); ++n)
+    rest_[n] = 1 - slope_[n] * from_axis(space_->nodes().col(n)).norm();
+  for (const auto& [node, value] : values) rest_[node] = 0;
+  double volume = 0, flux = 0;
   for (std::size_t q = 0; q < points.tet.size(); ++q) {
     const auto k = static_cast<Eigen::Index>(q);
-    const auto s = space_->sample(points.tet[q], points.barycentric.col(k));
-    const Vector nodal = raw(s.functions);
-    const int level = std::clamp(static_cast<int>(kLevels * s.N.dot(nodal)), 0, kLevels - 1);
-    volume[level] += points.weights[k];
-    flux[level] += points.weights[k] * (s.gradient * nodal).norm();
+    volume += points.weights[k];
+    flux += points.weights[k] * sample(points.tet[q], points.barycentric.col(k)).grad_u.norm();
   }
-  std::vector<double> at{0.0}, length{0.0};
-  for (int level = 0; level < kLevels; ++level) {
-    if (flux[level] <= 0) continue;
-    const double next = (level + 1.0) / kLevels;
-    length.push_back(length.back() + (next - at.back()) * volume[level] / flux[level]);
-    at.push_back(next);
-  }
-  arc_length_ = length.back();
-  const polyaffine::MonotoneCubic arc(at, length);
-  u_.resize(raw.size());
-  for (Eigen::Index n = 0; n < raw.size(); ++n) u_[n] = std::clamp(arc(raw[n]).first / arc_length_, 0.0, 1.0);
-}
-
-void VentricularCoordinates::build_axes() {
-  // ∂Q multiplies the displacement itself, so the noise of ∇t must go: smoothed over a share of the wall.
-  const polyaffine::WallPoints points = space_->wall_points(4);
-  Points radial(3, points.barycentric.cols());
-  double thickness = 0;
-  for (Eigen::Index q = 0; q < radial.cols(); ++q) {
-    const auto s = space_->sample(points.tet[q], points.barycentric.col(q));
-    const Vec3 gradient = s.gradient * t_(s.functions);
-    radial.col(q) = gradient.normalized();
-    thickness += points.weights[q] / gradient.norm();
-  }
-  thickness /= points.weights.sum();
-  const Matrix smooth = polyaffine::smooth_projection(*space_, points, radial, kSmoothing * thickness);
-  axes_.resize(9, smooth.cols());
-  for (Eigen::Index n = 0; n < smooth.cols(); ++n) {
-    const Vec3 e_r = smooth.col(n).normalized();
-    Vec3 e_c = axis_.cross(e_r);
-    if (e_c.norm() < 1e-6) e_c = septal_;  // on the axis itself no direction is distinguished
-    e_c.normalize();
-    axes_.col(n) << e_r.cross(e_c).normalized(), e_c, e_r;
-  }
+  arc_length_ = volume / flux;
 }
 
 CoordinateSample VentricularCoordinates::sample(int tet, const Vec4& barycentric) const {
   const auto s = space_->sample(tet, barycentric);
   CoordinateSample out;
-  out.u = s.N.dot(u_(s.functions));
   out.t = s.N.dot(t_(s.functions));
-  out.grad_u = s.gradient * u_(s.functions);
   out.grad_t = s.gradient * t_(s.functions);
-  const Matrix nodal = axes_(Eigen::all, s.functions);
-  out.Q = (nodal * s.N).reshaped(3, 3);
-  for (int J = 0; J < 3; ++J) out.dQ[J] = (nodal * s.gradient.row(J).transpose()).reshaped(3, 3);
 
-  const Vec3 d = space_->nodes()(Eigen::all, s.functions) * s.N - base_centre_;
-  const double x = d.dot(anterior_);
-  const double y = d.dot(septal_);
-  const double r2 = std::max(x * x + y * y, 1e-12);
-  out.psi = std::atan2(y, x);
-  out.grad_psi = (x * septal_ - y * anterior_) / r2;
+  const Vec3 X = space_->nodes()(Eigen::all, s.functions) * s.N;
+  const Vec3 d = from_axis(X);
+  const double r = std::max(d.norm(), 1e-6);
+  const Vec3 away = d / r;
+  out.psi = std::atan2(d.dot(septal_), d.dot(anterior_));
+  out.grad_psi = -axis_.cross(away) / r;
+
+  const double g = s.N.dot(slope_(s.functions));
+  const double h = s.N.dot(rest_(s.functions));
+  const Vec3 grad_rg = r * (s.gradient * slope_(s.functions)) + g * away;
+  const double sum = r * g + h;
+  out.u = r * g / sum;
+  out.grad_u = (h * grad_rg - r * g * (s.gradient * rest_(s.functions))) / (sum * sum);
+
+  const auto radial = radial_->sample(X);
+  const Direction e_r = direction(radial.value, radial.gradient);
+  const Vec3 round = axis_.cross(away);
+  const Mat3 round_gradient = -away * round.transpose() / r;
+  const Direction e_c =
+      direction(round - round.dot(e_r.value) * e_r.value,
+                round_gradient - round.dot(e_r.value) * e_r.gradient -
+                    e_r.value * (round.transpose() * e_r.gradient + e_r.value.transpose() * round_gradient));
+  out.Q << e_r.value.cross(e_c.value), e_c.value, e_r.value;
+  for (int J = 0; J < 3; ++J) {
+    const Vec3 dr = e_r.gradient.col(J);
+    const Vec3 dc = e_c.gradient.col(J);
+    out.dQ[J] << dr.cross(e_c.value) + e_r.value.cross(dc), dc, dr;
+  }
+  return out;
+}
+
+Vector VentricularCoordinates::apicobasal() const {
+  Vector u(slope_.size());
+  for (Eigen::Index n = 0; n < u.size(); ++n) {
+    const double rg = slope_[n] * from_axis(space_->nodes().col(n)).norm();
+    u[n] = rg / (rg + rest_[n]);
+  }
+  return u;
+}
+
+Matrix VentricularCoordinates::axes() const {
+  Matrix out(9, t_.size());
+  const Eigen::Matrix4Xd corners = space_->node_barycentric();
+  for (Eigen::Index t = 0; t < space_->elements().cols(); ++t)
+    for (Eigen::Index k = 0; k < corners.cols(); ++k)
+      out.col(space_->elements()(k, t)) = sample(static_cast<int>(t), corners.col(k)).Q.reshaped();
   return out;
 }
 

@@ -1,6 +1,7 @@
 #include "cardiac/anatomy/frame_layout.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -35,6 +36,9 @@ bool is_aha(const RingOptions& options) {
   return options.nodes == RingOptions().nodes &&
          std::all_of(options.angles.begin(), options.angles.end(), [](double a) { return a == 0; });
 }
+
+// Apical, mid and basal ring: near the ends, where the wall bends and is held, they stand closer.
+constexpr std::array<double, 3> kAhaPositions{0.2, 0.5, 0.85};
 
 std::vector<FrameRing> make_rings(const RingOptions& options) {
   std::vector<FrameRing> rings(options.nodes.size());
@@ -95,7 +99,7 @@ FrameLayout frame_layout(const polyaffine::TetMesh& mesh, const VentricularCoord
   const std::vector<int> frame = region_tets(mesh, coordinates, layout);
 
   struct Mean {
-    double volume = 0, u = 0, radius = 0, thickness = 0;
+    double volume = 0, radius = 0, thickness = 0;
   };
   std::vector<Mean> means(layout.rings.size() + 1);
   std::vector<int> tets(layout.num_nodes(), 0);
@@ -104,7 +108,6 @@ FrameLayout frame_layout(const polyaffine::TetMesh& mesh, const VentricularCoord
     const double v = mesh.tet_volume(t);
     Mean& mean = means[ring_of(layout, frame[t])];
     mean.volume += v;
-    mean.u += v * s.u;
     mean.radius += v / s.grad_psi.norm();
     mean.thickness += v / s.grad_t.norm();
     ++tets[frame[t]];
@@ -119,7 +122,7 @@ FrameLayout frame_layout(const polyaffine::TetMesh& mesh, const VentricularCoord
     const Mean& mean = means[k + 1];
     layout.rings[k].radius = mean.radius / mean.volume;
     layout.rings[k].thickness = mean.thickness / mean.volume;
-    if (layout.follows_segments && options.positions.empty()) layout.rings[k].u = mean.u / mean.volume;
+    if (layout.follows_segments && options.positions.empty()) layout.rings[k].u = kAhaPositions[k];
   }
   layout.length = std::cbrt(mesh.volume() / layout.num_nodes());
   return layout;

@@ -44,8 +44,8 @@ struct FrameLayout {
   int region(double u, double psi) const;
 };
 
-/// Layout on a mesh. Without positions, rings of AHA's layout (4, 6, 6 nodes from angle 0) lie at the mean
-/// apicobasal coordinate of their segments; n rings of another layout at u_k = k/(n + ½), k = 1 … n: evenly
+/// Layout on a mesh. Without positions, rings of AHA's layout (4, 6, 6 nodes from angle 0) lie at
+/// u = 0.2, 0.5, 0.85; n rings of another layout at u_k = k/(n + ½), k = 1 … n: evenly
 /// spaced, the cap and the last ring's upper half owning half a space each. The unit of length is the cube
 /// root of the mean volume of a region. Throws InputError when a ring has fewer than three nodes, the numbers
 /// of rings differ, positions do not rise between 0 and 1, or a region has no tet.

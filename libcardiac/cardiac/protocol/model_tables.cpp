@@ -64,7 +64,7 @@ Table reduction_table() {
       .key(
           "preset", &Reduction::preset,
           {.meaning = "set of enrichment and pressure_space: fast {tt; segment_depth}, accurate {tt, lt, ct, "
-                      "ltt, ctt; segment_bilinear}",
+                      "ltt, ctt, ttt; segment_bilinear}",
            .source =
                "measured on the Land ellipsoid: a few per cent of displacement error, and about half of "
                "it"})
@@ -109,7 +109,7 @@ Table reduction_table() {
            {.range = {0, 1},
             .meaning = "apicobasal coordinate of each ring of control nodes, 0 apex to 1 base, rising",
             .absent =
-                "from the centres of the AHA segments; with other ring_nodes k/(n + 1/2) for ring k of n"})
+                "0.2, 0.5, 0.85 for the AHA segments; with other ring_nodes k/(n + 1/2) for ring k of n"})
       .key(
           "ring_angles_deg", &Reduction::ring_angles_deg,
           {.unit = "deg",

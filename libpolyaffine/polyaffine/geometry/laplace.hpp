@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include <polyaffine/core/types.hpp>
@@ -18,10 +19,20 @@ struct NodeValue {
 /// is given or the system is singular.
 Vector solve_laplace(const LagrangeBasis& basis, const std::vector<NodeValue>& dirichlet);
 
-/// Smooth nodal field f (components × nodes) from values g at points of the wall (components × points), the
-/// minimiser of ∫ |f − g|² + length² |∇f|²: an L2 projection with a Helmholtz filter that removes what varies
-/// over less than about `length` (mm). The points are those of basis.wall_points(degree ≥ 4).
-Matrix smooth_projection(const LagrangeBasis& basis, const WallPoints& points, const Matrix& values,
-                         double length);
+/// Coefficients at one point of a diffusion problem: conductivity D (symmetric, not negative) and the factor
+/// f > 0 with its gradient (1/mm).
+struct DiffusionPoint {
+  Mat3 conductivity = Mat3::Identity();
+  double factor = 1;
+  Vec3 factor_gradient = Vec3::Zero();
+};
+
+/// Nodal ψ such that f ψ solves ∇·(D ∇(f ψ)) = 0, with ψ given at some nodes and no flux elsewhere on the
+/// boundary. A factor takes out of the unknown what polynomials follow badly: f the distance from a line lets
+/// f ψ have a cone there. `at` is called with the index of a point of `points`, one block an element. Throws
+/// ComputationError when the system is singular.
+Vector solve_diffusion(const LagrangeBasis& basis, const WallPoints& points,
+                       const std::function<DiffusionPoint(std::size_t)>& at,
+                       const std::vector<NodeValue>& dirichlet);
 
 }  // namespace polyaffine

@@ -56,11 +56,9 @@ TEST(Coordinates, DepthIsThatOfTheEllipsoids) {
   for_points([](int, const Vec4&, const Vec3& X, const CoordinateSample& s) {
     EXPECT_GE(s.t, -0.02);
     EXPECT_LE(s.t, 1.02);
-    // A harmonic depth runs ahead of the geometric one where the wall spreads outwards: in mid-wall by .04 in
-    // a cylinder of radii 7 and 10, by .13 in a sphere with the apex's radii of curvature, 2.9 and 5.
-    const double ahead = s.t - testing::analytic_depth(X);
-    EXPECT_GT(ahead, -0.06) << X.transpose();
-    EXPECT_LT(ahead, X.z() > -12 ? 0.1 : 0.17) << X.transpose();
+    // A harmonic depth would run ahead of the geometric one where the wall spreads outwards: in mid-wall by
+    // .04 in a cylinder of radii 7 and 10, by .13 in a sphere with the apex's radii of curvature, 2.9 and 5.
+    EXPECT_NEAR(s.t, testing::analytic_depth(X), X.z() > -12 ? 0.03 : 0.06) << X.transpose();
   });
   const auto& land = LandEllipsoid::get();
   for (const int n : land.coordinates->space().surface_nodes(land.mesh, {1}))
@@ -70,8 +68,10 @@ TEST(Coordinates, DepthIsThatOfTheEllipsoids) {
 TEST(Coordinates, ApicobasalGrowsFromTheApexToTheBase) {
   const auto& land = LandEllipsoid::get();
   const auto& c = *land.coordinates;
-  for (const int n : c.space().surface_nodes(land.mesh, {3})) EXPECT_EQ(c.apicobasal()[n], 1);
-  EXPECT_EQ(c.apicobasal().minCoeff(), 0);
+  const polyaffine::Vector u = c.apicobasal();
+  for (const int n : c.space().surface_nodes(land.mesh, {3})) EXPECT_EQ(u[n], 1);
+  EXPECT_GE(u.minCoeff(), 0);
+  EXPECT_LT(u.minCoeff(), 0.05);
   std::vector<std::pair<double, double>> samples;  // height, u
   for_points([&](int, const Vec4&, const Vec3& X, const CoordinateSample& s) {
     samples.emplace_back(c.long_axis_height(X), s.u);
@@ -96,7 +96,7 @@ TEST(Coordinates, ApicobasalIsProportionalToArcLength) {
     sum += length * s.grad_u.norm();
     ++count;
   });
-  EXPECT_NEAR(sum / count, 1, 0.08);  // mean over the body of the ventricle; single points differ with depth
+  EXPECT_NEAR(sum / count, 1, 0.03);  // mean over the body of the ventricle
 }
 
 TEST(Coordinates, RotationIsCounterClockwiseSeenFromTheApex) {
@@ -136,7 +136,7 @@ TEST(Coordinates, AxesAreOrthonormalAndFollowTheEllipsoid) {
       angle = std::max(
           angle, std::acos(std::min(1.0, s.Q.col(k).normalized().dot(testing::analytic_axes(X).col(k)))));
   });
-  EXPECT_LT(worst, 0.05);  // interpolation of unit vectors over elements of 3 mm
+  EXPECT_LT(worst, 1e-12);
   EXPECT_LT(angle, 8 * kPi / 180);
   const auto& nodal = LandEllipsoid::get().coordinates->axes();
   for (Eigen::Index n = 0; n < nodal.cols(); ++n) {
@@ -158,14 +158,14 @@ TEST(Coordinates, GradientsMatchFiniteDifferences) {
       const CoordinateSample ahead = land.coordinates->sample(t, l + d);
       const CoordinateSample back = land.coordinates->sample(t, l - d);
       const Vec3 dX = land.coordinates->position(t, l + d) - land.coordinates->position(t, l - d);
+      EXPECT_NEAR(ahead.u - back.u, s.grad_u.dot(dX), 1e-10);  // third order in the step
       // Quadratic in the barycentric coordinates: central differences are exact but for rounding, 1e-16.
-      EXPECT_NEAR(ahead.u - back.u, s.grad_u.dot(dX), 1e-13);
       EXPECT_NEAR(ahead.t - back.t, s.grad_t.dot(dX), 1e-13);
       EXPECT_NEAR(std::remainder(ahead.psi - back.psi, 2 * kPi), s.grad_psi.dot(dX),
                   1e-10);  // third order in the step
       Mat3 dQ = Mat3::Zero();
       for (int J = 0; J < 3; ++J) dQ += dX[J] * s.dQ[J];
-      EXPECT_LT((ahead.Q - back.Q - dQ).norm(), 1e-12);
+      EXPECT_LT((ahead.Q - back.Q - dQ).norm(), 1e-9);
       largest = std::max(largest, dQ.norm() / dX.norm());
     }
   }

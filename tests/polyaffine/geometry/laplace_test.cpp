@@ -62,60 +62,46 @@ TEST(Laplace, WithoutValuesThereIsNoSolution) {
   EXPECT_THROW(solve_laplace(basis, {}), ComputationError);
 }
 
-// The projection solves f − ℓ² Δf = g without flux through the boundary.
-struct Projection {
-  TetMesh mesh = testing::labelled_cube(6);
-  LagrangeBasis basis{mesh, 2};
-  WallPoints points = basis.wall_points(4);
-
-  template <class Field>
-  Matrix operator()(const Field& g, double length) const {
-    Matrix values(g(Vec3::Zero()).size(), points.barycentric.cols());
-    for (Eigen::Index q = 0; q < values.cols(); ++q) {
-      const BasisSample s = basis.sample(points.tet[q], points.barycentric.col(q));
-      values.col(q) = g(basis.nodes()(Eigen::all, s.functions) * s.N);
-    }
-    return smooth_projection(basis, points, values, length);
-  }
-};
-
-TEST(SmoothProjection, KeepsConstantsAtAnyLength) {
-  const Projection project;
-  const Vec3 value(1, -2, 0.5);
-  for (const double length : {0.0, 0.1, 3.0}) {
-    const Matrix f = project([&](const Vec3&) { return Vector(value); }, length);
-    EXPECT_LT((f.colwise() - Vector(value)).cwiseAbs().maxCoeff(), 1e-11);
+// In one dimension w ψ' is constant: with w = 1/(1 + x) the solution between 0 and 1 is (x + x²/2)/1.5.
+TEST(Diffusion, FollowsTheConductivity) {
+  const TetMesh mesh = testing::labelled_cube(4);
+  const LagrangeBasis basis(mesh, 2);
+  const WallPoints points = basis.wall_points(4);
+  std::vector<NodeValue> values;
+  for (const int n : basis.surface_nodes(mesh, {testing::kZLow})) values.push_back({n, 0.0});
+  for (const int n : basis.surface_nodes(mesh, {testing::kZHigh})) values.push_back({n, 1.0});
+  const Vector psi = solve_diffusion(
+      basis, points,
+      [&](std::size_t q) {
+        const double z =
+            basis.position(points.tet[q], points.barycentric.col(static_cast<Eigen::Index>(q))).z();
+        return DiffusionPoint{Mat3::Identity() / (1 + z)};
+      },
+      values);
+  for (int n = 0; n < basis.num_functions(); ++n) {
+    const double z = basis.nodes()(2, n);
+    EXPECT_NEAR(psi[n], (z + z * z / 2) / 1.5, 1e-4);
   }
 }
 
-TEST(SmoothProjection, WithoutLengthItReproducesQuadraticFields) {
-  const Projection project;
-  const auto g = [](const Vec3& X) { return Vector::Constant(1, X.x() * X.x() - X.y() * X.z() + 1); };
-  const Matrix f = project(g, 0);
-  for (int n = 0; n < project.basis.num_functions(); ++n)
-    EXPECT_NEAR(f(0, n), g(project.basis.nodes().col(n))[0], 1e-11);
-}
-
-TEST(SmoothProjection, ALinearFieldBendsAtTheBoundaryAsHelmholtzSays) {
-  constexpr double kLength = 0.2;
-  const Projection project;
-  const Matrix f = project([](const Vec3& X) { return Vector::Constant(1, X.x()); }, kLength);
-  for (int n = 0; n < project.basis.num_functions(); ++n) {
-    const double x = project.basis.nodes()(0, n);
-    // f − ℓ² f'' = x, f'(0) = f'(1) = 0
-    const double exact = x - kLength * std::sinh((x - 0.5) / kLength) / std::cosh(0.5 / kLength);
-    EXPECT_NEAR(f(0, n), exact, 2e-3);  // layers of width ℓ, a little more than an element
-  }
-}
-
-TEST(SmoothProjection, WeakensAWaveAsHelmholtzSays) {
-  constexpr double kLength = 0.3;
-  const Projection project;
-  const Matrix f =
-      project([](const Vec3& X) { return Vector::Constant(1, std::cos(2 * kPi * X.z())); }, kLength);
-  const double factor = 1 / (1 + std::pow(2 * kPi * kLength, 2));  // 0.22
-  for (int n = 0; n < project.basis.num_functions(); ++n)
-    EXPECT_NEAR(f(0, n), factor * std::cos(2 * kPi * project.basis.nodes()(2, n)), 4e-3);  // elements of λ/6
+// The cone f = |X|: f ψ with ψ = 1 is harmonic under D = I/f² (its flux X/f³ has no source), exactly so.
+TEST(Diffusion, AFactorTakesOutWhatPolynomialsFollowBadly) {
+  const TetMesh mesh = testing::labelled_cube(3);
+  const LagrangeBasis basis(mesh, 2);
+  const WallPoints points = basis.wall_points(6);
+  const Vec3 tip(-0.5, -0.5, -0.5);
+  std::vector<NodeValue> values;
+  for (const int n : basis.surface_nodes(mesh, kAllFaces)) values.push_back({n, 1.0});
+  const Vector psi = solve_diffusion(
+      basis, points,
+      [&](std::size_t q) {
+        const Vec3 d =
+            basis.position(points.tet[q], points.barycentric.col(static_cast<Eigen::Index>(q))) - tip;
+        const double f = d.norm();
+        return DiffusionPoint{Mat3::Identity() / (f * f), f, d / f};
+      },
+      values);
+  for (int n = 0; n < basis.num_functions(); ++n) EXPECT_NEAR(psi[n], 1, 2e-4);
 }
 
 }  // namespace

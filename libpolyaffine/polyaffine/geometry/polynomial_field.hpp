@@ -1,0 +1,31 @@
+#pragma once
+
+#include <polyaffine/core/types.hpp>
+
+namespace polyaffine {
+
+/// A smooth field over a region of space: the polynomial of total degree n in x, y, z (Legendre products over
+/// the bounding box of the points) that is closest to given values, min Σ_q w_q |f(X_q) − f_q|². It keeps
+/// what varies over the region and drops the noise of a mesh, and its gradient is exact.
+class PolynomialField {
+ public:
+  /// X (3 × points, mm), values (components × points), weights ≥ 0. Throws InputError when the sizes differ,
+  /// there are fewer points than functions, or the points have no extent along x, y or z.
+  PolynomialField(const Points& X, const Matrix& values, const Vector& weights, int degree);
+
+  struct Sample {
+    Vector value;     ///< by component
+    Matrix gradient;  ///< ∂f_i/∂X_J, components × 3, 1/mm
+  };
+  Sample sample(const Vec3& X) const;
+  int num_functions() const { return static_cast<int>(coefficients_.cols()); }
+
+ private:
+  void functions(const Vec3& X, Vector& P, Eigen::MatrixX3d& gradient) const;
+
+  int degree_;
+  Vec3 centre_, half_;
+  Matrix coefficients_;  // components × functions
+};
+
+}  // namespace polyaffine
