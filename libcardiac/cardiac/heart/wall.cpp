@@ -1,5 +1,7 @@
 #include "cardiac/heart/wall.hpp"
 
+#include <cmath>
+
 #include <cardiac/fibres/helix.hpp>
 #include <cardiac/tissue/active_stress.hpp>
 #include <cardiac/tissue/guccione.hpp>
@@ -38,6 +40,22 @@ LawPointer passive_law(const protocol::Tissue& t, const FibreAxes& fibres,
           polyaffine::Elasticity{t.youngs_modulus_kPa, t.poisson_ratio}, factor);
   }
   throw polyaffine::InputError("tissue.law: unknown law");
+}
+
+// From `at_apex` on the axis to 1 within half a wall thickness: in this core, where fibres of all directions
+// meet, the bulk modulus acts at every point; a wider one stiffens the cap.
+std::vector<double> apical_factor(const Anatomy& anatomy, const Discretisation& discretisation,
+                                  double at_apex) {
+  const auto& points = discretisation.points;
+  const double reach = 0.5 * discretisation.layout.cap_thickness / anatomy.coordinates->arc_length();
+  std::vector<double> factor;
+  for (std::size_t q = 0; q < points.tet.size(); ++q) {
+    const double s =
+        anatomy.coordinates->sample(points.tet[q], points.barycentric.col(static_cast<Eigen::Index>(q))).u /
+        reach;
+    factor.push_back(1 + (at_apex - 1) * std::exp(-s * s));
+  }
+  return factor;
 }
 
 }  // namespace
@@ -97,7 +115,8 @@ std::shared_ptr<const polyaffine::FieldEnergy> build_wall(const Anatomy& anatomy
     // check.
     if (const double local = protocol.reduction.local_bulk_modulus_kPa;
         pressure && discretisation.frame_basis && local > 0) {
-      laws.push_back(std::make_shared<polyaffine::QuadraticVolumetric>(local));
+      laws.push_back(std::make_shared<polyaffine::QuadraticVolumetric>(
+          local, apical_factor(anatomy, discretisation, tissue.bulk_modulus_kPa / local)));
       pressure->bulk_modulus -= local;
     }
   }
