@@ -64,6 +64,26 @@ TEST(CubeTable, OneZoneIsExactWithAnyWeights) {
   EXPECT_TRUE(table.defects.empty());
 }
 
+TEST(CubeFigure, ShowsAllCurvesOfAFullTable) {
+  CubeTable table;
+  for (const PaperCell& cell : paper_table())
+    for (const CubeWeights weights : {CubeWeights::volumes, CubeWeights::consistent}) {
+      CubeRow row;
+      row.paper = cell;
+      row.weights = weights;
+      row.tilt_percent = weights == CubeWeights::volumes ? 2.5 : 3e-13;
+      table.rows.push_back(row);
+    }
+  const std::string svg = cube_svg(table);
+  EXPECT_NE(svg.find("consistent weights, at most 3e-13 %"), std::string::npos);
+  EXPECT_NE(svg.find("region volumes as weights, at most 2.5 %"), std::string::npos);
+  EXPECT_NE(svg.find("paper (±), at most 9.9 %"), std::string::npos);
+  std::size_t lines = 0;
+  for (std::size_t at = svg.find("<polyline"); at != std::string::npos; at = svg.find("<polyline", at + 1))
+    ++lines;
+  EXPECT_EQ(lines, 6);
+}
+
 TEST(CubeThickness, TiltIsHalfOfBothSlopes) {
   const CubeThickness a{3, 1, -2}, b{1, 0.5, 2};
   EXPECT_EQ(a.tilt(), 1.5);
