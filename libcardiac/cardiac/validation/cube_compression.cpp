@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ctime>
 #include <functional>
 #include <limits>
 #include <utility>
 
 #include <polyaffine/constraint/projection.hpp>
 #include <polyaffine/core/error.hpp>
+#include <polyaffine/core/single_thread.hpp>
 #include <polyaffine/energy/springs.hpp>
 #include <polyaffine/kinematics/gmls_basis.hpp>
 #include <polyaffine/kinematics/resultant_table.hpp>
@@ -101,11 +101,11 @@ std::vector<char> hold_nodes(const LagrangeBasis& basis) {
 std::unique_ptr<LinearSystem> solve_from_rest(const EquilibriumProblem& problem,
                                               const std::function<std::unique_ptr<LinearSystem>()>& make,
                                               Vector& c, double& seconds) {
-  const double start = processor_time();
+  const double start = processor_seconds();
   c.setZero();
   std::unique_ptr<LinearSystem> system = make();
   const NewtonReport report = newton(problem, 1, *system, c);
-  seconds = std::min(seconds, processor_time() - start);
+  seconds = std::min(seconds, processor_seconds() - start);
   if (!report.converged()) throw ComputationError("cube: " + to_string(report.reason));
   return system;
 }
@@ -124,10 +124,6 @@ double CubeThickness::tilt() const {
 
 CubeThickness operator-(const CubeThickness& a, const CubeThickness& b) {
   return {a.change - b.change, a.slope_x - b.slope_x, a.slope_y - b.slope_y};
-}
-
-double processor_time() {
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
 double exact_thickness_change() {
@@ -152,7 +148,7 @@ CubeSolution solve_cube_fem(const CubeScene& scene, int repeats) {
 
 CubeReduction::CubeReduction(const CubeScene& scene, const CubePlacement& placement, const CubeMethod& method)
     : bottom_(scene.face(*scene.linear, kCubeBottom)), top_(scene.face(*scene.linear, kCubeTop)) {
-  double start = processor_time();
+  double start = processor_seconds();
   const auto basis = make_basis(scene, placement, method.kinematics);
   const QuadraturePoints points = elaston_points(scene.mesh, placement.integration, method.elaston_order);
   table_ = deformation_table(*basis, placement.wall_points(points));
@@ -160,9 +156,9 @@ CubeReduction::CubeReduction(const CubeScene& scene, const CubePlacement& placem
   supports_ = std::make_shared<const Projection>(hold(scene.mesh, *basis));
   bottom_map_.emplace(*basis, bottom_.tet, bottom_.barycentric);
   top_map_.emplace(*basis, top_.tet, top_.barycentric);
-  setup_s_ = processor_time() - start;
+  setup_s_ = processor_seconds() - start;
 
-  start = processor_time();
+  start = processor_seconds();
   const WeightConditions constraint =
       integration_constraint(table_, boundary_integrals(*basis, scene.boundary(*scene.linear)));
   const WeightConditions moments = region_moments(scene.mesh, placement.zone, placement.num_zones(),
@@ -171,7 +167,7 @@ CubeReduction::CubeReduction(const CubeScene& scene, const CubePlacement& placem
   consistent_ = std::move(found.weights);
   is_consistent_ = found.met;
   keeps_moments_ = found.moments;
-  correction_s_ = processor_time() - start;
+  correction_s_ = processor_seconds() - start;
   defect_ = constraint.A * points.weights - constraint.b;
   relative_defect_ = defect_.norm() / constraint.scale[0];
 }

@@ -68,9 +68,6 @@ class CubeReduction {
   double setup_s_ = 0, correction_s_ = 0;
 };
 
-/// Processor time of the program so far, s.
-double processor_time();
-
 /// Exact change of thickness, −p h / E, mm.
 double exact_thickness_change();
 

@@ -8,6 +8,7 @@
 
 #include <cardiac/report/text.hpp>
 #include <polyaffine/core/error.hpp>
+#include <polyaffine/core/single_thread.hpp>
 
 namespace cardiac {
 namespace {
@@ -101,6 +102,7 @@ const CubeRow& CubeTable::row(const PaperCell& cell, const CubeMethod& method, C
 
 void run_cube_cell(const CubeScene& scene, const PaperCell& cell, const std::vector<CubeMethod>& methods,
                    int placements, CubeTable& table) {
+  const polyaffine::SingleThread single_thread;
   std::mt19937_64 random(static_cast<unsigned>(10000 * cell.zones + cell.points));
   std::vector<CubeRow> rows;
   for (const CubeMethod& method : methods)
@@ -116,9 +118,9 @@ void run_cube_cell(const CubeScene& scene, const PaperCell& cell, const std::vec
   for (int k = 0; k < placements; ++k) {
     const CubeSolution fem = solve_cube_fem(scene, 1);
     fem_s = std::min(fem_s, fem.solve_s);
-    const double start = processor_time();
+    const double start = polyaffine::processor_seconds();
     const CubePlacement placement = place_cube(scene, cell.zones, cell.points, random);
-    placement_s += (processor_time() - start) / placements;
+    placement_s += (polyaffine::processor_seconds() - start) / placements;
     for (std::size_t r = 0; r < rows.size(); r += kBothWeights.size()) {
       const CubeReduction first(scene, placement, rows[r].method);
       const CubeThickness error = record(first, CubeWeights::volumes, fem.thickness, rows[r], sums[r]);

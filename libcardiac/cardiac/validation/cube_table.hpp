@@ -53,8 +53,8 @@ struct CubeTable {
   const CubeRow& row(const PaperCell& cell, const CubeMethod& method, CubeWeights weights) const;
 };
 
-/// Adds the rows of a cell: `methods` with both kinds of weights, over `placements` random placements that
-/// depend on the cell only, and the defects of direct blending with order 0.
+/// Adds the rows of a cell, computed on one thread: `methods` with both kinds of weights, over `placements`
+/// random placements that depend on the cell only, and the defects of direct blending with order 0.
 void run_cube_cell(const CubeScene& scene, const PaperCell& cell, const std::vector<CubeMethod>& methods,
                    int placements, CubeTable& table);
 
