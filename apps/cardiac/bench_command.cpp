@@ -7,12 +7,15 @@
 #include <string>
 #include <vector>
 
+#include <cardiac/anatomy/structured_ellipsoid.hpp>
+#include <cardiac/bench/beat_scene.hpp>
 #include <cardiac/bench/bench.hpp>
 #include <cardiac/bench/bench_figure.hpp>
 #include <cardiac/bench/bench_table.hpp>
 #include <polyaffine/core/atomic_file.hpp>
 
 #include "ellipsoid_mesh.hpp"
+#include "load_mesh.hpp"
 #include "progress.hpp"
 
 namespace cardiac::app {
@@ -22,6 +25,7 @@ struct BenchOptions {
   std::string scene;
   std::filesystem::path out = "results/bench";
   std::vector<std::string> settings;
+  std::filesystem::path protocol = "protocols/healthy_lv.toml";
   bool quick = false, quiet = false;
 };
 
@@ -46,6 +50,25 @@ void print_row(const BenchRow& row) {
   std::cout << std::endl;
 }
 
+// On a coarse mesh of the same shape, one beat only, when it shall be quick.
+SceneResult beat(const BenchOptions& options) {
+  BeatContext context;
+  context.protocol = [&](std::vector<std::string> settings) {
+    if (options.quick) settings.insert(settings.begin(), "time.max_beats=1");
+    return load_protocol(options.protocol, settings);
+  };
+  context.anatomy = [&](const Protocol& protocol) {
+    if (options.quick) return build_anatomy(structured_ellipsoid(human_lv(), {6, 12, 1}).mesh, protocol);
+    check_mesh_file(protocol);
+    return load_anatomy(protocol);
+  };
+  context.settings = options.settings;
+  ProgressLine line(options.quiet);
+  context.progress = [&](const std::string& what, double fraction) { line(what, fraction); };
+  if (!options.quiet) context.on_row = print_row;
+  return run_beat_scene(context);
+}
+
 void bench(const BenchOptions& options) {
   polyaffine::make_folder(options.out);
   BenchContext context;
@@ -57,14 +80,18 @@ void bench(const BenchOptions& options) {
     context.on_row = print_row;
   }
   std::vector<SceneResult> results;
+  const auto add = [&](const SceneResult& result) {
+    results.push_back(result);
+    polyaffine::write_atomically(options.out / "bench.csv", bench_csv(results));
+    polyaffine::write_atomically(options.out / "bench.md", bench_markdown(results));
+    polyaffine::write_atomically(options.out / "bench.svg", bench_svg(results));
+  };
+  if (options.scene == kBeat) return add(beat(options));
   for (const BenchScene& scene : bench_scenes()) {
     if (!options.scene.empty() && options.scene != scene.group) continue;
     ProgressLine line(options.quiet);
     context.progress = [&](const std::string& what, double fraction) { line(what, fraction); };
-    results.push_back(run_scene(scene, context));
-    polyaffine::write_atomically(options.out / "bench.csv", bench_csv(results));
-    polyaffine::write_atomically(options.out / "bench.md", bench_markdown(results));
-    polyaffine::write_atomically(options.out / "bench.svg", bench_svg(results));
+    add(run_scene(scene, context));
   }
 }
 
@@ -78,13 +105,18 @@ void add_bench_command(CLI::App& app) {
     if (!names.empty() && names.back() == scene.group) continue;
     names.push_back(scene.group);
   }
-  command->add_option("SCENE", options->scene, "one scene only")->check(CLI::IsMember(names));
+  names.emplace_back(kBeat);
+  command->add_option("SCENE", options->scene, "one scene only; all but beat, which takes long, without it")
+      ->check(CLI::IsMember(names));
   command->add_option("--out", options->out, "folder of bench.csv, bench.md and bench.svg")
       ->type_name("DIR")
       ->capture_default_str();
   command->add_option("--set", options->settings, "a protocol key of the reduced models")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+  command->add_option("--protocol", options->protocol, "protocol of the beat")
+      ->type_name("FILE")
+      ->capture_default_str();
   command->add_flag("--quick", options->quick, "small meshes, fewer models");
   command->add_flag("--quiet", options->quiet, "no progress, no table");
   command->callback([options] { bench(*options); });

@@ -134,7 +134,7 @@ BenchRow make_row(const BenchScene& scene, const std::string& method, const Benc
   row.converged = solution.converged;
   if (!solution.converged) return row;
   row.cavity_ratio = model.cavity_ratio(solution.c);
-  row.errors = yardstick.errors(model, solution.c);
+  row.errors = yardstick.errors(model.ventricle(), solution.c);
   return row;
 }
 
@@ -173,7 +173,7 @@ SceneResult run_scene(const BenchScene& scene, const BenchContext& context) {
       if (!solution.converged)
         throw polyaffine::ComputationError("bench: the reference solution of " + scene.name +
                                            " did not converge");
-      yardstick.emplace(*model, solution.c);
+      yardstick.emplace(model->ventricle(), solution.c);
     }
     result.rows.push_back(make_row(scene, choice.method, *model, solution, *yardstick));
     result.rows.back().settings = told;

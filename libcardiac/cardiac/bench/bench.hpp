@@ -2,12 +2,21 @@
 
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <cardiac/bench/errors.hpp>
+#include <cardiac/bench/model.hpp>
 
 namespace cardiac {
+
+/// What a beat adds to a row, against the full-order beat.
+struct BeatErrors {
+  double ef_points = 0, gls_points = 0;  ///< ejection fraction and GLS, differences in points of per cent
+  double peak_strain = 0;       ///< largest difference of a peak normal strain of a segment (Lagrangian)
+  double real_time_factor = 0;  ///< solve_s over the simulated time
+};
 
 /// One model of one scene: what it is, what it took and how wrong it is.
 struct BenchRow {
@@ -21,6 +30,7 @@ struct BenchRow {
   ModelErrors errors;
   double speedup_over_fem = std::numeric_limits<double>::quiet_NaN();
   int load_steps = 0, newton_iterations = 0;
+  std::optional<BeatErrors> beat{};
   bool converged = false;  ///< if not: times and iterations up to the failure, no errors
 };
 

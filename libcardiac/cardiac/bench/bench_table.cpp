@@ -16,6 +16,15 @@ std::string quoted(const std::string& text) {
   return out;
 }
 
+std::string beat_fields(const BenchRow& row) {
+  if (!row.beat) return ",,,,";
+  std::string out;
+  for (const double value :
+       {row.beat->ef_points, row.beat->gls_points, row.beat->peak_strain, row.beat->real_time_factor})
+    out += "," + number_text(value);
+  return out;
+}
+
 std::string csv_row(const BenchRow& row) {
   const auto known = [&](double value) { return row.converged ? value : kNone; };
   std::string out = row.scene + "," + row.method + "," + row.preset;
@@ -28,7 +37,7 @@ std::string csv_row(const BenchRow& row) {
     out += "," + number_text(value);
   out += "," + row.integration + "," + number_text(known(row.errors.compliance_ratio)) + "," +
          std::to_string(row.load_steps) + "," + std::to_string(row.newton_iterations) + "," +
-         (row.converged ? "yes" : "no") + ",\"" + quoted(row.settings) + "\"";
+         (row.converged ? "yes" : "no") + ",\"" + quoted(row.settings) + "\"" + beat_fields(row);
   return out + "\n";
 }
 
@@ -60,7 +69,8 @@ std::string bench_csv(const std::vector<SceneResult>& results) {
   out +=
       "scene,method,preset,mesh_tets,control_nodes,dofs,integration_points,setup_s,solve_s,cavity_ratio,"
       "displacement_error_percent,volume_error_percent,max_segment_strain_error,apex_strain_error,"
-      "speedup_over_fem,integration,compliance_ratio,load_steps,newton_iterations,converged,settings\n";
+      "speedup_over_fem,integration,compliance_ratio,load_steps,newton_iterations,converged,settings,"
+      "ef_error_points,gls_error_points,peak_strain_error,real_time_factor\n";
   for (const SceneResult& r : results)
     for (const BenchRow& row : r.rows) out += csv_row(row);
   return out;
@@ -75,6 +85,13 @@ std::string bench_markdown(const std::vector<SceneResult>& results) {
            "settings |\n"
            "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
     for (const BenchRow& row : r.rows) out += markdown_row(row);
+    for (const BenchRow& row : r.rows)
+      if (row.beat)
+        out += "\n" + row.method + " " + row.preset + ": ejection fraction " +
+               display_text(row.beat->ef_points, 2) + " points, GLS " +
+               display_text(row.beat->gls_points, 2) + " points, worst segment peak " +
+               display_text(row.beat->peak_strain, 4) + ", real-time factor " +
+               display_text(row.beat->real_time_factor, 3) + ".\n";
     out += "\n";
   }
   return out;

@@ -9,6 +9,8 @@ namespace cardiac {
 
 using polyaffine::Mat3;
 using polyaffine::MeshPoint;
+using polyaffine::Points;
+using polyaffine::Vec3;
 using polyaffine::Vector;
 
 namespace {
@@ -23,7 +25,16 @@ std::vector<MeshPoint> own_places(const polyaffine::WallPoints& points) {
   return out;
 }
 
+double cavity_at_rest(const Ventricle& ventricle) {
+  return ventricle.cavity_volume(Vector::Zero(ventricle.num_coefficients()));
+}
+
 }  // namespace
+
+const polyaffine::LagrangeBasis& material_elements(const Ventricle& ventricle) {
+  const auto* own = dynamic_cast<const polyaffine::LagrangeBasis*>(ventricle.discretisation.basis.get());
+  return own ? *own : ventricle.anatomy->coordinates->space();
+}
 
 WallState wall_state(const polyaffine::Basis& basis, const Vector& c, const std::vector<MeshPoint>& at) {
   const auto n = static_cast<Eigen::Index>(at.size());
@@ -47,20 +58,20 @@ WallState wall_state(const polyaffine::Basis& basis, const Vector& c, const std:
   return out;
 }
 
-Yardstick::Yardstick(const BenchModel& reference, const Vector& c)
-    : points_(reference.elements().wall_points(kDegree)),
-      gauge_(*reference.anatomy().coordinates, points_),
-      state_(wall_state(*reference.ventricle().discretisation.basis, c, own_places(points_))),
+Yardstick::Yardstick(const Ventricle& reference, const Vector& c)
+    : points_(material_elements(reference).wall_points(kDegree)),
+      gauge_(*reference.anatomy->coordinates, points_),
+      state_(wall_state(*reference.discretisation.basis, c, own_places(points_))),
       strain_(gauge_.green_lagrange(state_.F)),
-      cavity_at_rest_(reference.cavity_at_rest()),
-      cavity_(reference.ventricle().cavity_volume(c)) {}
+      cavity_at_rest_(cavity_at_rest(reference)),
+      cavity_(reference.cavity_volume(c)) {}
 
-ModelErrors Yardstick::errors(const BenchModel& model, const Vector& c) const {
-  const polyaffine::ElementLocator locator(model.elements());
+ModelErrors Yardstick::errors(const Ventricle& model, const Vector& c) const {
+  const polyaffine::ElementLocator locator(material_elements(model));
   std::vector<MeshPoint> at;
   for (Eigen::Index q = 0; q < positions().cols(); ++q) at.push_back(locator.locate(positions().col(q)));
-  return errors(wall_state(*model.ventricle().discretisation.basis, c, at), model.cavity_at_rest(),
-                model.ventricle().cavity_volume(c));
+  return errors(wall_state(*model.discretisation.basis, c, at), cavity_at_rest(model),
+                model.cavity_volume(c));
 }
 
 ModelErrors Yardstick::errors(const WallState& state, double at_rest, double cavity) const {

@@ -2,11 +2,14 @@
 
 #include <vector>
 
-#include <cardiac/bench/model.hpp>
+#include <cardiac/heart/ventricle.hpp>
 #include <cardiac/strain/segment_strain.hpp>
 #include <polyaffine/kinematics/element_locator.hpp>
 
 namespace cardiac {
+
+/// The elements that hold the material points of a ventricle, full order or reduced.
+const polyaffine::LagrangeBasis& material_elements(const Ventricle& ventricle);
 
 /// Displacement (3 × points, mm) and deformation gradient (9 × points).
 struct WallState {
@@ -32,9 +35,9 @@ struct ModelErrors {
 class Yardstick {
  public:
   /// The reference must outlive it.
-  Yardstick(const BenchModel& reference, const polyaffine::Vector& c);
+  Yardstick(const Ventricle& reference, const polyaffine::Vector& c);
 
-  ModelErrors errors(const BenchModel& model, const polyaffine::Vector& c) const;
+  ModelErrors errors(const Ventricle& model, const polyaffine::Vector& c) const;
   /// The same of a state given at positions() with the cavity volumes at rest and deformed, mm³.
   ModelErrors errors(const WallState& state, double cavity_at_rest, double cavity) const;
 

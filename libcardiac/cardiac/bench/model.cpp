@@ -49,11 +49,6 @@ BenchModel::BenchModel(const BenchScene& scene, const CurvedMesh& mesh,
   setup_s_ = polyaffine::processor_seconds() - start;
 }
 
-const polyaffine::LagrangeBasis& BenchModel::elements() const {
-  const auto* own = dynamic_cast<const polyaffine::LagrangeBasis*>(ventricle_.discretisation.basis.get());
-  return own ? *own : anatomy().coordinates->space();
-}
-
 std::string BenchModel::preset() const {
   return reduced() ? protocol::name_of(reduction_.preset) : "";
 }

@@ -20,8 +20,6 @@ class BenchModel {
 
   const Ventricle& ventricle() const { return ventricle_; }
   const Anatomy& anatomy() const { return *ventricle_.anatomy; }
-  /// The elements that hold the model's material points.
-  const polyaffine::LagrangeBasis& elements() const;
   bool reduced() const { return ventricle_.discretisation.frame_basis != nullptr; }
   std::string preset() const;       ///< as in the protocol; empty for full order
   std::string integration() const;  ///< as in the protocol; empty for full order

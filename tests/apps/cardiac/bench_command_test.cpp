@@ -48,6 +48,27 @@ TEST(BenchCommand, ComparesModelsOfOneScene) {
   }
 }
 
+TEST(BenchCommand, ComparesBeats) {
+  const TemporaryFolder folder;
+  const auto run =
+      run_program("bench beat --quick --quiet --protocol " PROJECT_DIR "/protocols/healthy_lv.toml --out " +
+                  folder.path.string());
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, IsEmpty());
+  const auto rows = rows_of(whole_file(folder.path / "bench.csv"));
+  ASSERT_EQ(rows.size(), 4);
+  EXPECT_EQ(std::vector(rows[0].end() - 4, rows[0].end()),
+            (std::vector<std::string>{"ef_error_points", "gls_error_points", "peak_strain_error",
+                                      "real_time_factor"}));
+  for (std::size_t r = 1; r < rows.size(); ++r) {
+    ASSERT_EQ(rows[r].size(), rows[0].size());
+    EXPECT_LT(std::abs(std::stod(rows[r][21])), 5);
+    EXPECT_LT(std::stod(rows[r][23]), 0.3);
+    EXPECT_GT(std::stod(rows[r][24]), 0);
+    EXPECT_EQ(std::stod(rows[r][23]) == 0, rows[r][1] == "fem_p2");
+  }
+}
+
 TEST(BenchCommand, RefusesAnUnknownScene) {
   const auto run = run_program("bench ellipsoid_pasive --quick");
   EXPECT_EQ(run.status, 2);
