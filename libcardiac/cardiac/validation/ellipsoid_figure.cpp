@@ -1,7 +1,6 @@
 #include "cardiac/validation/ellipsoid_figure.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <cardiac/report/axes.hpp>
 #include <cardiac/report/text.hpp>
@@ -41,16 +40,26 @@ void draw_profiles(Svg& svg, const polyaffine::Points& X, const std::vector<Elli
 }
 
 void draw_errors(Svg& svg, const std::vector<EllipsoidCurve>& curves) {
-  Plot plot{650, 60, 400, 480, {1.5, 3.5, 0.5}, {0, 2, 0.5}};
-  plot.draw(svg, "log₁₀ unknowns", "log₁₀ displacement error (%)", 13);
-  double y = 84;
+  std::vector<double> unknowns, errors;
+  for (const EllipsoidCurve& curve : curves)
+    for (const EllipsoidPoint& p : curve.points) {
+      unknowns.push_back(p.unknowns);
+      errors.push_back(p.error_percent);
+    }
+  const auto axis = [](const std::vector<double>& values) {
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    return log_axis(*low, *high);
+  };
+  const Plot plot{650, 60, 400, 480, axis(unknowns), axis(errors)};
+  plot.draw(svg, "unknowns", "displacement error (%)", 13);
+  double y = 60 + 480 - 72;  // below the curves, which fall to the right
   for (const EllipsoidCurve& curve : curves) {
+    if (curve.points.empty()) continue;
     std::vector<DrawPoint> points;
-    for (const EllipsoidPoint& p : curve.points)
-      points.push_back(plot.at(std::log10(p.unknowns), std::log10(p.error_percent)));
+    for (const EllipsoidPoint& p : curve.points) points.push_back(plot.at(p.unknowns, p.error_percent));
     svg.polyline(points, stroke(curve.colour, 2), curve.name);
     for (const DrawPoint& p : points) svg.circle(p, 4, "fill=\"" + curve.colour + "\"", curve.name);
-    draw_legend(svg, {860, y}, curve.name, curve.colour);
+    draw_legend(svg, {670, y}, curve.name, curve.colour);
     y += 24;
   }
 }
