@@ -37,6 +37,8 @@ void print_checks(const std::vector<Check>& checks) {
 }
 
 void validate(const ValidateOptions& options) {
+  std::vector<Expectation> expectations;
+  for (const std::string& text : options.expectations) expectations.push_back(parse_expectation(text));
   polyaffine::make_folder(options.out);
   std::vector<Check> checks;
   {
@@ -55,7 +57,7 @@ void validate(const ValidateOptions& options) {
       checks.insert(checks.end(), found.begin(), found.end());
     }
   }
-  for (const std::string& text : options.expectations) override_range(checks, text);
+  for (const Expectation& expectation : expectations) apply(expectation, checks);
   polyaffine::write_atomically(options.out / "validation.json", validation_text(checks));
   if (!options.quiet) print_checks(checks);
   if (!all_passed(checks))

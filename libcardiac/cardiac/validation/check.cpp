@@ -27,24 +27,27 @@ double parse_number(const std::string& text, const std::string& whole) {
 
 }  // namespace
 
-void override_range(std::vector<Check>& checks, const std::string& text) {
+Expectation parse_expectation(const std::string& text) {
   const auto equals = text.find('=');
   const auto colon = text.find(':', equals == std::string::npos ? 0 : equals);
   if (equals == std::string::npos || colon == std::string::npos)
     throw InputError("--expect: found \"" + text + "\", expected CASE/QUANTITY=LOW:HIGH");
-  const std::string name = text.substr(0, equals);
-  const double low = parse_number(text.substr(equals + 1, colon - equals - 1), text);
-  const double high = parse_number(text.substr(colon + 1), text);
+  return {text.substr(0, equals), parse_number(text.substr(equals + 1, colon - equals - 1), text),
+          parse_number(text.substr(colon + 1), text)};
+}
+
+void apply(const Expectation& expectation, std::vector<Check>& checks) {
   bool found = false;
   for (Check& check : checks) {
-    if (check.case_name + "/" + check.quantity != name) continue;
-    check.low = low;
-    check.high = high;
+    if (check.case_name + "/" + check.quantity != expectation.name) continue;
+    check.low = expectation.low;
+    check.high = expectation.high;
     check.source = "--expect on the command line";
     found = true;
   }
   if (!found)
-    throw InputError("--expect: found \"" + name + "\", expected a CASE/QUANTITY that was computed");
+    throw InputError("--expect: found \"" + expectation.name +
+                     "\", expected a CASE/QUANTITY that was computed");
 }
 
 std::string validation_text(const std::vector<Check>& checks) {

@@ -47,9 +47,17 @@ struct ValidationCase {
 /// All cases, in the order of `cardiac validate all`.
 const std::vector<ValidationCase>& validation_cases();
 
-/// Replaces the accepted range of a check, from text "case/quantity=low:high" (applies to every method of
-/// that case and quantity). Throws InputError when the text has another form or nothing has that name.
-void override_range(std::vector<Check>& checks, const std::string& text);
+/// Another accepted range of a number, for every method of its case.
+struct Expectation {
+  std::string name;  ///< "case/quantity"
+  double low = 0, high = 0;
+};
+
+/// From "case/quantity=low:high"; throws InputError when the text has another form.
+Expectation parse_expectation(const std::string& text);
+
+/// Throws InputError when no check has the name.
+void apply(const Expectation& expectation, std::vector<Check>& checks);
 
 /// The text of validation.json: {"checks": [...], "passed": ...}; a number that is not finite becomes null
 /// and fails.
