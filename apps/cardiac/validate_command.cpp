@@ -57,7 +57,7 @@ void validate(const ValidateOptions& options) {
       checks.insert(checks.end(), found.begin(), found.end());
     }
   }
-  for (const Expectation& expectation : expectations) apply(expectation, checks);
+  for (const Expectation& expectation : expectations) apply_expectation(expectation, checks);
   polyaffine::write_atomically(options.out / "validation.json", validation_text(checks));
   if (!options.quiet) print_checks(checks);
   if (!all_passed(checks))

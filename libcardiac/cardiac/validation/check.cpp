@@ -36,7 +36,7 @@ Expectation parse_expectation(const std::string& text) {
           parse_number(text.substr(colon + 1), text)};
 }
 
-void apply(const Expectation& expectation, std::vector<Check>& checks) {
+void apply_expectation(const Expectation& expectation, std::vector<Check>& checks) {
   bool found = false;
   for (Check& check : checks) {
     if (check.case_name + "/" + check.quantity != expectation.name) continue;

@@ -57,7 +57,7 @@ struct Expectation {
 Expectation parse_expectation(const std::string& text);
 
 /// Throws InputError when no check has the name.
-void apply(const Expectation& expectation, std::vector<Check>& checks);
+void apply_expectation(const Expectation& expectation, std::vector<Check>& checks);
 
 /// The text of validation.json: {"checks": [...], "passed": ...}; a number that is not finite becomes null
 /// and fails.

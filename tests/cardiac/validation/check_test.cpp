@@ -34,7 +34,7 @@ TEST(Check, PassesInsideItsRangeEndsIncluded) {
 TEST(Check, OneFailureFailsTheWhole) {
   std::vector<Check> checks{check_of("z_mm", 4.17, 4.16, 4.18), check_of("x_mm", 9.1, 9, 9.2)};
   EXPECT_TRUE(nlohmann::json::parse(validation_text(checks))["passed"]);
-  apply(parse_expectation("land1/x_mm=9.15:9.2"), checks);
+  apply_expectation(parse_expectation("land1/x_mm=9.15:9.2"), checks);
   const auto json = nlohmann::json::parse(validation_text(checks));
   EXPECT_FALSE(json["passed"]);
   EXPECT_TRUE(json["checks"][0]["passed"]);
@@ -53,7 +53,7 @@ TEST(Check, WrongOverridesAreNamed) {
   std::vector<Check> checks{check_of("z_mm", 4.17, 4.16, 4.18)};
   EXPECT_THROW(parse_expectation("land1/z_mm"), polyaffine::InputError);
   EXPECT_THROW(parse_expectation("land1/z_mm=a:b"), polyaffine::InputError);
-  EXPECT_THROW(apply({"land1/y_mm", 0, 1}, checks), polyaffine::InputError);
+  EXPECT_THROW(apply_expectation(parse_expectation("land1/y_mm=0:1"), checks), polyaffine::InputError);
 }
 
 }  // namespace
