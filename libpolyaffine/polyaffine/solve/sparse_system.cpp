@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "polyaffine/solve/linear_system.hpp"
-#include "polyaffine/solve/one_thread.hpp"
+#include "polyaffine/solve/serial_blas.hpp"
 
 namespace polyaffine {
 namespace {
@@ -59,7 +59,7 @@ class SparseSystem : public LinearSystem {
   }
 
   bool factorise() override {
-    const OneThread serial;
+    const SerialBlas serial;
     for (std::size_t k = 0; k < fixed_.size(); ++k)
       if (fixed_[k]) values_[columns_[k]] = 1;
     if (!std::all_of(values_.begin(), values_.end(), [](double v) { return std::isfinite(v); })) return false;
@@ -72,7 +72,7 @@ class SparseSystem : public LinearSystem {
   }
 
   Matrix solve(const Matrix& rhs) const override {
-    const OneThread serial;
+    const SerialBlas serial;
     Matrix x(rhs.rows(), rhs.cols());
     if (!positive_) {
       for (Eigen::Index c = 0; c < rhs.cols(); ++c)

@@ -5,12 +5,12 @@ namespace polyaffine {
 /// While it lives, OpenMP regions and OpenBLAS run on the calling thread alone. The fronts of a supernodal
 /// factorisation are small: threads that share them spend more time waiting for each other, awake, than they
 /// save, and their sums depend on their number.
-class OneThread {
+class SerialBlas {
  public:
-  OneThread();
-  ~OneThread();
-  OneThread(const OneThread&) = delete;
-  OneThread& operator=(const OneThread&) = delete;
+  SerialBlas();
+  ~SerialBlas();
+  SerialBlas(const SerialBlas&) = delete;
+  SerialBlas& operator=(const SerialBlas&) = delete;
 
  private:
   int active_levels_, blas_threads_;
