@@ -20,6 +20,7 @@ std::vector<std::vector<std::string>> rows_of(const std::string& csv) {
     rows.emplace_back();
     std::istringstream fields(line);
     for (std::string field; std::getline(fields, field, ',');) rows.back().push_back(field);
+    if (line.ends_with(',')) rows.back().emplace_back();
   }
   return rows;
 }
