@@ -51,12 +51,7 @@ TetMesh mesh_box(const Vec3& size_mm, double edge_mm) {
       }
     throw polyaffine::ComputationError("box: a boundary triangle lies on none of the six faces");
   };
-  polyaffine::MeshSizes sizes;
-  sizes.cell_mm = 0.75 * edge_mm;
-  sizes.facet_mm = 0.7 * edge_mm;
-  sizes.facet_distance_mm = 0.1 * edge_mm;
-  sizes.edge_mm = edge_mm;
-  return mesh_implicit_domain(domain, sizes);
+  return mesh_implicit_domain(domain, polyaffine::sizes_for_edge(edge_mm));
 }
 #else
 TetMesh mesh_box(const Vec3&, double) {

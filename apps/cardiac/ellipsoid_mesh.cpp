@@ -35,13 +35,7 @@ TetMesh mesh_truncated_ellipsoid(const TruncatedEllipsoid& shape, double size_mm
   domain.label = [&](const std::array<polyaffine::Vec3, 3>& triangle) {
     return surface_label(shape, on_surface_mm, triangle);
   };
-  // A regular tet of edge h has the circumradius .61 h, a regular triangle .58 h.
-  polyaffine::MeshSizes sizes;
-  sizes.cell_mm = 0.75 * size_mm;
-  sizes.facet_mm = 0.7 * size_mm;
-  sizes.facet_distance_mm = 0.1 * size_mm;
-  sizes.edge_mm = size_mm;
-  return mesh_implicit_domain(domain, sizes);
+  return mesh_implicit_domain(domain, polyaffine::sizes_for_edge(size_mm));
 }
 #else
 TetMesh mesh_truncated_ellipsoid(const TruncatedEllipsoid&, double) {

@@ -4,8 +4,8 @@
 
 namespace polyaffine {
 
-/// While it lives, parallel loops (TBB) and OpenBLAS, where that is the BLAS, use one thread: for times that
-/// can be compared. Not to be made in several threads at once.
+/// While it lives, parallel loops (TBB), OpenMP and OpenBLAS use one thread: for times that can be compared.
+/// Not to be made in several threads at once.
 class SingleThread {
  public:
   SingleThread();

@@ -28,6 +28,12 @@ struct MeshSizes {
   double min_dihedral_deg = 15;  ///< aim of the improvement
 };
 
+/// Sizes for tets with edges of about edge_mm: a regular tet of edge h has the circumradius .61 h, a regular
+/// triangle .58 h.
+inline MeshSizes sizes_for_edge(double edge_mm) {
+  return {0.75 * edge_mm, 0.7 * edge_mm, 0.1 * edge_mm, edge_mm};
+}
+
 /// Delaunay refinement (CGAL Mesh_3), then ODT smoothing and perturbation until the dihedral angles reach
 /// the aim or nothing more can be gained (Jamin, Alliez, Yvinec, Boissonnat 2015, ACM TOMS 41(4):23).
 ///

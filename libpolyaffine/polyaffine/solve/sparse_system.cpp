@@ -5,8 +5,9 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <polyaffine/core/serial_blas.hpp>
+
 #include "polyaffine/solve/linear_system.hpp"
-#include "polyaffine/solve/serial_blas.hpp"
 
 namespace polyaffine {
 namespace {

@@ -1,4 +1,4 @@
-#include "polyaffine/solve/serial_blas.hpp"
+#include "polyaffine/core/serial_blas.hpp"
 
 #include <omp.h>
 
