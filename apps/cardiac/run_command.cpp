@@ -7,6 +7,7 @@
 #include <iostream>
 #include <memory>
 
+#include <cardiac/heart/checkpoint.hpp>
 #include <cardiac/heart/verification.hpp>
 #include <cardiac/protocol/describe.hpp>
 #include <cardiac/protocol/plan.hpp>
@@ -17,7 +18,9 @@
 #include <nlohmann/json.hpp>
 #include <polyaffine/core/atomic_file.hpp>
 #include <polyaffine/core/error.hpp>
+#include <polyaffine/mesh/digest.hpp>
 
+#include "interrupt.hpp"
 #include "load_mesh.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"
@@ -31,7 +34,7 @@ struct RunOptions {
   std::string out;
   std::string method;
   std::vector<std::string> overrides;
-  bool verify = false, dry_run = false, quiet = false, verbose = false;
+  bool verify = false, dry_run = false, resume = false, quiet = false, verbose = false;
 };
 
 void print_plan(const std::vector<PlanItem>& items) {
@@ -51,9 +54,12 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Frames and figures of an earlier, longer run would be mistaken for this one's.
-void remove_old_frames(const std::filesystem::path& out) {
-  if (!std::filesystem::is_directory(out)) return;
+// Frames and figures of an earlier, longer run would be mistaken for this one's; a folder without a summary
+// is not whole.
+void remove_old_results(const std::filesystem::path& out) {
+  polyaffine::remove_abandoned(out);
+  std::filesystem::remove(out / "summary.json");
+  std::filesystem::remove(out / "report.html");
   for (const auto& entry : std::filesystem::directory_iterator(out)) {
     const std::string name = entry.path().filename().string();
     if (name.starts_with("heart_") && name.ends_with(".vtu")) std::filesystem::remove(entry.path());
@@ -78,8 +84,7 @@ void write_results(const Ventricle& ventricle, const Protocol& protocol, const H
                    std::chrono::steady_clock::time_point start) {
   const auto output_start = std::chrono::steady_clock::now();
   const RunInfo info{CARDIAC_VERSION, resolved_json(protocol).dump(), 0};
-  polyaffine::make_folder(out);
-  remove_old_frames(out);
+  remove_old_results(out);
   if (protocol.output.mesh_series && !path.outputs.empty())
     write_mesh_series(ventricle, protocol, path, result, out);
   std::string wall;
@@ -134,6 +139,31 @@ void print_timing(const BeatResult& result) {
        result.wall_solve_s - c.filling_s - c.residual_s - c.tangent_s - c.factorisation_s - c.linear_solve_s);
 }
 
+// The checkpoint in the folder; none, and said so, where there is none.
+std::shared_ptr<const Checkpoint> last_checkpoint(const std::filesystem::path& file,
+                                                  const CheckpointOrigin& origin, bool quiet) {
+  if (std::filesystem::exists(file)) return std::make_shared<const Checkpoint>(read_checkpoint(file, origin));
+  if (!quiet) std::cerr << "cardiac: no " << file.string() << ": from the beginning\n";
+  return nullptr;
+}
+
+HeartPath solve(const Ventricle& ventricle, const Protocol& protocol, const RunOptions& options,
+                const std::filesystem::path& out, const InterruptGuard& interrupt) {
+  const std::filesystem::path file = out / "checkpoint.json";
+  const CheckpointOrigin origin{CARDIAC_VERSION, resolved_json(protocol).dump(),
+                                polyaffine::digest(ventricle.anatomy->mesh)};
+  ProgressLine line(options.quiet);
+  RunControl control;
+  control.progress = [&line](const std::string& what, double fraction) { line(what, fraction); };
+  control.stop_reason = [&interrupt] { return interrupt.reason(); };
+  control.on_checkpoint = [&](const Checkpoint& at) {
+    polyaffine::write_atomically(file, checkpoint_text(at, origin));
+  };
+  if (options.resume) control.resume = last_checkpoint(file, origin, options.quiet);
+  return protocol.circulation ? run_beats(ventricle, protocol, control)
+                              : run_prescribed(ventricle, protocol, control);
+}
+
 void run(RunOptions options) {
   const auto start = std::chrono::steady_clock::now();
   if (!options.method.empty()) options.overrides.push_back("reduction.method=" + options.method);
@@ -152,17 +182,12 @@ void run(RunOptions options) {
   const auto nodes = segment_nodes(*anatomy, protocol);
   const double setup = seconds_since(start);
   const auto solve_start = std::chrono::steady_clock::now();
-  HeartPath path;
-  {
-    ProgressLine line(options.quiet);
-    const auto progress = [&line](const std::string& what, double fraction) { line(what, fraction); };
-    path = protocol.circulation ? run_beats(ventricle, protocol, progress)
-                                : run_prescribed(ventricle, protocol, progress);
-  }
-  const double solve = seconds_since(solve_start);
+  const InterruptGuard interrupt;
+  const HeartPath path = solve(ventricle, protocol, options, out, interrupt);
+  const double solve_s = seconds_since(solve_start);
   BeatResult result = describe_path(ventricle, nodes, protocol, path);
   result.wall_setup_s = setup;
-  result.wall_solve_s = solve;
+  result.wall_solve_s = solve_s;
   result.plan = items;
   if (!options.quiet) print_warnings(result.warnings);
   result.warnings.insert(result.warnings.begin(), protocol.warnings.begin(), protocol.warnings.end());
@@ -172,7 +197,8 @@ void run(RunOptions options) {
   if (!options.quiet) print_result(result, out);
   if (options.verbose && result.has_beat) print_timing(result);
   if (!path.completed)
-    throw polyaffine::ComputationError(path.stop_reason + "; what was computed is in " + out.string());
+    throw polyaffine::ComputationError(path.stop_reason + "; what was computed is in " + out.string() +
+                                       (interrupt.reason().empty() ? "" : ", --resume goes on"));
 }
 
 }  // namespace
@@ -190,6 +216,8 @@ void add_run_command(CLI::App& app) {
       ->check(CLI::IsMember({"polyaffine", "fem"}));
   command->add_flag("--verify", options->verify, "also solve full order at end diastole and end systole");
   command->add_flag("--dry-run", options->dry_run, "check the input, print what would be built, and stop");
+  command->add_flag("--resume", options->resume,
+                    "go on from the checkpoint.json of an interrupted run in the result directory");
   command->add_flag("--verbose", options->verbose, "also print where the time of the solve went");
   command->add_flag("--quiet", options->quiet, "no progress, no warnings, no summary");
   command->callback([options] { run(*options); });

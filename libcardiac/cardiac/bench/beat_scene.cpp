@@ -29,7 +29,7 @@ Beat run(const BeatContext& context, const std::shared_ptr<const Anatomy>& anato
   out.protocol = context.protocol(settings);
   out.ventricle = build_ventricle(anatomy, out.protocol, out.protocol.reduction.method);
   const double built = polyaffine::processor_seconds();
-  out.path = run_beats(out.ventricle, out.protocol, context.progress);
+  out.path = run_beats(out.ventricle, out.protocol, {.progress = context.progress});
   out.solve_s = polyaffine::processor_seconds() - built;
   out.setup_s = built - start;
   if (!out.path.completed) return out;

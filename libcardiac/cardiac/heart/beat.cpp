@@ -6,8 +6,10 @@
 #include <iterator>
 
 #include "cardiac/heart/beat_system.hpp"
+#include "cardiac/heart/checkpoint.hpp"
 
 #include <cardiac/core/units.hpp>
+#include <polyaffine/core/error.hpp>
 
 namespace cardiac {
 
@@ -29,18 +31,28 @@ LeftHeartLoop left_heart_loop(const protocol::Circulation& c) {
 
 namespace {
 
+bool stop_wanted(const RunControl& control) {
+  return control.stop_reason && !control.stop_reason().empty();
+}
+
+std::string why(const polyaffine::LoadReport& report, const RunControl& control) {
+  if (report.reason == polyaffine::StopReason::interrupted) return control.stop_reason();
+  return polyaffine::to_string(report.last.reason);
+}
+
 // The wall in equilibrium at the filling pressure. On failure the path says so.
-bool fill(const Ventricle& ventricle, const LeftHeartLoop& loop, const Vector& tension, HeartPath& path,
-          Vector& c) {
+bool fill(const Ventricle& ventricle, const LeftHeartLoop& loop, const Vector& tension,
+          const RunControl& control, HeartPath& path, Vector& c) {
   const auto problem = loaded_ventricle(ventricle, loop.filling_pressure_kPa, tension);
   const auto system = ventricle.make_system();
-  const auto report = polyaffine::load_stepping(problem, *system, c);
+  polyaffine::LoadOptions options;
+  options.interrupted = [&] { return stop_wanted(control); };
+  const auto report = polyaffine::load_stepping(problem, *system, c, options);
   path.newton_iterations += report.iterations;
   if (report.converged()) return true;
-  path.stop_reason = "filling stopped at " +
-                     std::to_string(report.reached * loop.filling_pressure_kPa / kPa_per_mmHg) + " of " +
-                     std::to_string(loop.filling_pressure_kPa / kPa_per_mmHg) +
-                     " mmHg: " + polyaffine::to_string(report.last.reason);
+  path.stop_reason =
+      "filling stopped at " + std::to_string(report.reached * loop.filling_pressure_kPa / kPa_per_mmHg) +
+      " of " + std::to_string(loop.filling_pressure_kPa / kPa_per_mmHg) + " mmHg: " + why(report, control);
   return false;
 }
 
@@ -64,85 +76,128 @@ bool closed(const HeartPath& path, double tolerance_percent) {
              tolerance_percent / 100 * path.steps.back().capacitor_pressure_kPa;
 }
 
-}  // namespace
-
-HeartPath run_beats(const Ventricle& ventricle, const Protocol& protocol, const Progress& progress) {
-  const LeftHeartLoop loop = left_heart_loop(*protocol.circulation);
-  const double period = ventricle.contraction->curve.period_ms();
-  HeartPath path;
-  ++path.built["circulation"];
-  Vector c = Vector::Zero(ventricle.num_coefficients());
-  const Vector rest = ventricle.contraction->tension(0);
-  const auto begin = std::chrono::steady_clock::now();
-  const bool filled = fill(ventricle, loop, rest, path, c);
-  const double filling_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  path.cost.filling_s = filling_s;
-  if (!filled) return path;
-
-  BeatSystem system(ventricle, loop);
-  HeartState start{0, c, ventricle.cavity_volume(c), loop.filling_pressure_kPa,
-                   protocol.circulation->initial_aortic_pressure_mmHg * kPa_per_mmHg};
-  const auto options = system.options(protocol.time);
-  const Vector rate = system.start_consistently(start);
-  polyaffine::DaeIntegrator ida(system, options, 0, system.pack(start), rate);
-  const auto finish = [&] {
-    const auto counters = ida.counters();
-    path.time_steps = static_cast<int>(counters.steps);
-    path.newton_iterations += static_cast<int>(counters.newton_iterations);
-    path.cost = system.cost();
-    path.cost.filling_s = filling_s;
-    path.cost.error_test_failures = counters.error_test_failures;
-    path.cost.convergence_failures = counters.convergence_failures;
-    path.simulated_ms = ida.time();
-    return path;
-  };
-
-  for (int beat = 0; beat < protocol.time.max_beats; ++beat) {
-    path.beat_start_ms = beat * period;
-    const double end = (beat + 1) * period;
-    const double interval = protocol.output.interval_ms;
-    path.steps = {system.unpack(path.beat_start_ms, path.beat_start_ms, ida.y())};
-    path.outputs = path.steps;
-    while (ida.time() < end - 1e-9 * period) {
-      if (ida.step(end) == polyaffine::DaeStatus::failed) {
-        path.stop_reason = "stopped at " + std::to_string(ida.time()) + " ms (beat " +
-                           std::to_string(beat + 1) + "): " + ida.failure();
-        return finish();
-      }
-      path.steps.push_back(system.unpack(ida.time(), path.beat_start_ms, ida.y()));
-      if (std::ssize(path.steps) > kMaxSteps) {
-        path.stop_reason = "stopped at " + std::to_string(ida.time()) + " ms (beat " +
-                           std::to_string(beat + 1) + "): " + std::to_string(kMaxSteps) +
-                           " time steps in one beat; the last was " +
-                           std::to_string(path.steps.back().time_ms - path.steps.end()[-2].time_ms) +
-                           " ms; a softer tissue, more viscosity or larger tolerances (time.*) let it go on";
-        return finish();
-      }
-      for (double t = path.beat_start_ms + interval * static_cast<double>(path.outputs.size());
-           t <= ida.time() + 1e-9 && t <= end + 1e-9;
-           t = path.beat_start_ms + interval * static_cast<double>(path.outputs.size())) {
-        Vector y;
-        ida.interpolate(std::min(t, ida.time()), y);
-        path.outputs.push_back(system.unpack(t, path.beat_start_ms, y));
-      }
-      path.min_det_F = std::min(path.min_det_F, system.min_det());
-      path.max_det_F = std::max(path.max_det_F, system.max_det());
-      if (progress)
-        progress("beat " + std::to_string(beat + 1), ida.time() / (period * protocol.time.max_beats));
+// The beat that the path has come to, from and to (y, rate). False, with the reason, when it stopped.
+bool run_beat(BeatSystem& system, const Protocol& protocol, double period, const RunControl& control,
+              Vector& y, Vector& rate, HeartPath& path) {
+  const int beat = path.beats;
+  const double begin = beat * period, end = (beat + 1) * period;
+  const double interval = protocol.output.interval_ms;
+  path.beat_start_ms = begin;
+  path.steps = {system.unpack(begin, begin, y)};
+  path.outputs = path.steps;
+  polyaffine::DaeIntegrator ida(system, system.options(protocol.time), begin, y, rate);
+  std::string stop;
+  while (stop.empty() && ida.time() < end - 1e-9 * period) {
+    if (ida.step(end) == polyaffine::DaeStatus::failed) {
+      stop = ida.failure();
+      break;
     }
-    path.beats = beat + 1;
-    path.stroke_volumes_mm3.push_back(stroke_volume(path.steps));
-    if (closed(path, protocol.time.limit_cycle_tolerance_percent)) break;
+    path.steps.push_back(system.unpack(ida.time(), begin, ida.y()));
+    for (double t = begin + interval * static_cast<double>(path.outputs.size());
+         t <= ida.time() + 1e-9 && t <= end + 1e-9;
+         t = begin + interval * static_cast<double>(path.outputs.size())) {
+      Vector at;
+      ida.interpolate(std::min(t, ida.time()), at);
+      path.outputs.push_back(system.unpack(t, begin, at));
+    }
+    path.min_det_F = std::min(path.min_det_F, system.min_det());
+    path.max_det_F = std::max(path.max_det_F, system.max_det());
+    if (control.progress)
+      control.progress("beat " + std::to_string(beat + 1), ida.time() / (period * protocol.time.max_beats));
+    if (std::ssize(path.steps) > kMaxSteps)
+      stop = std::to_string(kMaxSteps) + " time steps in one beat; the last was " +
+             std::to_string(path.steps.back().time_ms - path.steps.end()[-2].time_ms) +
+             " ms; a softer tissue, more viscosity or larger tolerances (time.*) let it go on";
+    else if (stop_wanted(control))
+      stop = control.stop_reason();
   }
-  path.completed = true;
-  if (!closed(path, protocol.time.limit_cycle_tolerance_percent))
-    path.warnings.push_back("the pressure-volume loop did not close to " +
-                            std::to_string(protocol.time.limit_cycle_tolerance_percent) + " % in " +
-                            std::to_string(path.beats) + " beats; raise time.max_beats");
-  return finish();
+  y = ida.y();
+  rate = ida.rate();
+  const auto counters = ida.counters();
+  path.simulated_ms = ida.time();
+  path.time_steps += static_cast<int>(counters.steps);
+  path.newton_iterations += static_cast<int>(counters.newton_iterations);
+  system.cost().error_test_failures += counters.error_test_failures;
+  system.cost().convergence_failures += counters.convergence_failures;
+  if (stop.empty()) return true;
+  path.stop_reason =
+      "stopped at " + std::to_string(ida.time()) + " ms (beat " + std::to_string(beat + 1) + "): " + stop;
+  return false;
 }
 
-HeartPath run_prescribed(const Ventricle& ventricle, const Protocol& protocol, const Progress& progress) {
+// The wall filled, and (y, rate) when the first beat begins. False, with the reason, when it stopped.
+bool begin_beats(const Ventricle& ventricle, const Protocol& protocol, const RunControl& control,
+                 BeatSystem& system, Vector& y, Vector& rate, HeartPath& path) {
+  const LeftHeartLoop loop = left_heart_loop(*protocol.circulation);
+  Vector c = Vector::Zero(ventricle.num_coefficients());
+  const auto begin = std::chrono::steady_clock::now();
+  const bool filled = fill(ventricle, loop, ventricle.contraction->tension(0), control, path, c);
+  system.cost().filling_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (!filled) return false;
+  HeartState start{0, c, ventricle.cavity_volume(c), loop.filling_pressure_kPa,
+                   protocol.circulation->initial_aortic_pressure_mmHg * kPa_per_mmHg};
+  rate = system.start_consistently(start);
+  y = system.pack(start);
+  return true;
+}
+
+// Where an earlier run came to.
+void take_up(const Checkpoint& from, BeatSystem& system, Vector& y, Vector& rate, HeartPath& path) {
+  if (from.y.size() != system.size())
+    throw polyaffine::InputError("the checkpoint holds " + std::to_string(from.y.size()) +
+                                 " unknowns, expected " + std::to_string(system.size()));
+  y = from.y;
+  rate = from.rate;
+  path.beats = from.beats;
+  path.time_steps = from.time_steps;
+  path.newton_iterations = from.newton_iterations;
+  path.stroke_volumes_mm3 = from.stroke_volumes_mm3;
+  path.min_det_F = from.min_det_F;
+  path.max_det_F = from.max_det_F;
+  system.cost() = from.cost;
+}
+
+Checkpoint checkpoint(const HeartPath& path, const BeatSystem& system, const Vector& y, const Vector& rate) {
+  return {path.beats,
+          path.time_steps,
+          path.newton_iterations,
+          path.stroke_volumes_mm3,
+          path.min_det_F,
+          path.max_det_F,
+          system.cost(),
+          y,
+          rate};
+}
+
+}  // namespace
+
+HeartPath run_beats(const Ventricle& ventricle, const Protocol& protocol, const RunControl& control) {
+  const double tolerance = protocol.time.limit_cycle_tolerance_percent;
+  BeatSystem system(ventricle, left_heart_loop(*protocol.circulation));
+  HeartPath path;
+  ++path.built["circulation"];
+  Vector y, rate;
+  bool going_on = true;
+  if (control.resume)
+    take_up(*control.resume, system, y, rate, path);
+  else
+    going_on = begin_beats(ventricle, protocol, control, system, y, rate, path);
+  while (going_on && !path.completed) {
+    if (control.on_checkpoint) control.on_checkpoint(checkpoint(path, system, y, rate));
+    going_on = run_beat(system, protocol, ventricle.contraction->curve.period_ms(), control, y, rate, path);
+    if (!going_on) break;
+    ++path.beats;
+    path.stroke_volumes_mm3.push_back(stroke_volume(path.steps));
+    path.completed = closed(path, tolerance) || path.beats == protocol.time.max_beats;
+  }
+  path.cost = system.cost();
+  if (path.completed && !closed(path, tolerance))
+    path.warnings.push_back("the pressure-volume loop did not close to " + std::to_string(tolerance) +
+                            " % in " + std::to_string(path.beats) + " beats; raise time.max_beats");
+  return path;
+}
+
+HeartPath run_prescribed(const Ventricle& ventricle, const Protocol& protocol, const RunControl& control) {
   HeartPath path;
   Vector c = Vector::Zero(ventricle.num_coefficients());
   const double duration = protocol.time.duration_ms;
@@ -159,16 +214,17 @@ HeartPath run_prescribed(const Ventricle& ventricle, const Protocol& protocol, c
       const auto wall = ventricle.wall->evaluate({at, problem.terms.front().state(load)});
       path.min_det_F = std::min(path.min_det_F, wall.min_det);
       path.max_det_F = std::max(path.max_det_F, wall.max_det);
-      if (progress) progress("loading", load);
+      if (control.progress) control.progress("loading", load);
     };
     if (path.outputs.empty()) record(0, c);
     options.on_step = record;
+    options.interrupted = [&] { return stop_wanted(control); };
     const auto report = polyaffine::load_stepping(problem, *system, c, options);
     path.time_steps += report.steps;
     path.newton_iterations += report.iterations;
     if (!report.converged())
-      path.stop_reason = "stopped at " + std::to_string(100 * report.reached) +
-                         " % of the load: " + polyaffine::to_string(report.last.reason);
+      path.stop_reason =
+          "stopped at " + std::to_string(100 * report.reached) + " % of the load: " + why(report, control);
     return report.converged();
   };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,16 @@ struct HeartPath {
 /// Called now and then with the time simulated and, of what is to be done at most, the fraction done.
 using Progress = std::function<void(const std::string& what, double fraction)>;
 
+struct Checkpoint;
+
+/// How a run is watched, stopped and taken up again; every part may be absent.
+struct RunControl {
+  Progress progress{};
+  std::function<std::string()> stop_reason{};  ///< asked after each step; not empty: ends the run
+  std::function<void(const Checkpoint& at)> on_checkpoint{};  ///< called before each beat
+  std::shared_ptr<const Checkpoint> resume{};                 ///< where to go on instead of filling the wall
+};
+
 LeftHeartLoop left_heart_loop(const protocol::Circulation& circulation);
 
 /// Beats of a ventricle coupled to its circulation, from the wall filled to the filling pressure until two
@@ -44,13 +55,15 @@ LeftHeartLoop left_heart_loop(const protocol::Circulation& circulation);
 /// c, the cavity volume V and pressure p and the capacitor pressure p_c, in the index-1 system
 ///   ∂W/∂c(c, ċ, τ(t)) − p ∂V/∂c = 0,  V − V(c) = 0,  V̇ = q_mitral − q_aortic,  C ṗ_c = q_aortic − (p_c −
 ///   p_ref)/R,
-/// integrated by IDA with the block elimination of the last three unknowns. A run that cannot go on returns
-/// what it has with completed = false and the reason.
-HeartPath run_beats(const Ventricle& ventricle, const Protocol& protocol, const Progress& progress = {});
+/// integrated by IDA, begun anew at each beat, with the block elimination of the last three unknowns. A run
+/// that cannot go on returns what it has with completed = false and the reason. Throws InputError for a
+/// checkpoint of another number of unknowns.
+HeartPath run_beats(const Ventricle& ventricle, const Protocol& protocol, const RunControl& control = {});
 
 /// A ventricle without circulation: pressure raised to the prescribed value in equilibrium and, with
 /// contraction, then held while the tension follows its course over duration_ms. Time of the loading runs
 /// from 0 to duration_ms too.
-HeartPath run_prescribed(const Ventricle& ventricle, const Protocol& protocol, const Progress& progress = {});
+HeartPath run_prescribed(const Ventricle& ventricle, const Protocol& protocol,
+                         const RunControl& control = {});
 
 }  // namespace cardiac

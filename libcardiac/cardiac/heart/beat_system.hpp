@@ -34,6 +34,7 @@ class BeatSystem : public polyaffine::DaeSystem {
   double max_det() const { return max_det_; }
   /// Calls so far and their time.
   const SolveCost& cost() const { return cost_; }
+  SolveCost& cost() { return cost_; }
 
  private:
   const polyaffine::Vector& tension(double t);

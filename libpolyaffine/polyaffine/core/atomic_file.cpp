@@ -3,6 +3,8 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <fstream>
 #include <string>
 #include <system_error>
@@ -18,9 +20,20 @@ std::string reason(int error) {
   return std::generic_category().message(error);
 }
 
+constexpr std::string_view kMark = ".tmp-";
+
 fs::path temporary_name(const fs::path& target) {
-  const std::string mark = ".tmp-" + std::to_string(::getpid());
-  return target.parent_path() / ("." + target.stem().string() + mark + target.extension().string());
+  return target.parent_path() / ("." + target.stem().string() + std::string(kMark) +
+                                 std::to_string(::getpid()) + target.extension().string());
+}
+
+// Of the process in a temporary name; 0 in any other.
+pid_t writer_of(const std::string& name) {
+  const auto mark = name.rfind(kMark);
+  if (!name.starts_with('.') || mark == std::string::npos) return 0;
+  pid_t pid = 0;
+  const char* const begin = name.data() + mark + kMark.size();
+  return std::from_chars(begin, name.data() + name.size(), pid).ec == std::errc() ? pid : 0;
 }
 
 class RemovedUnlessKept {
@@ -57,6 +70,14 @@ void make_folder(const fs::path& folder) {
   if (error) throw InputError("cannot make the folder " + folder.string() + ": " + error.message());
   if (::access(folder.c_str(), W_OK | X_OK) != 0)
     throw InputError("cannot write into the folder " + folder.string() + ": " + reason(errno));
+}
+
+void remove_abandoned(const fs::path& folder) {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    const pid_t pid = writer_of(entry.path().filename().string());
+    if (pid > 0 && ::kill(pid, 0) != 0 && errno == ESRCH) fs::remove(entry.path(), ignored);
+  }
 }
 
 void write_atomically(const fs::path& target, const std::function<void(const fs::path&)>& write) {

@@ -10,6 +10,9 @@ namespace polyaffine {
 /// also where the folder cannot be written into.
 void make_folder(const std::filesystem::path& folder);
 
+/// Removes from a folder the temporary files of write_atomically whose process was killed.
+void remove_abandoned(const std::filesystem::path& folder);
+
 /// Calls `write` with a temporary name in the folder of `target` (same extension), then renames the file to
 /// `target`: a reader sees the old file or the whole new one. When anything fails the temporary file is
 /// removed and the old one stays. Exceptions of `write` pass through; throws InputError where the file cannot

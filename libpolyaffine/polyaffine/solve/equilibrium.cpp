@@ -168,6 +168,8 @@ std::string to_string(StopReason reason) {
       return "the tangent stiffness is singular";
     case StopReason::step_too_small:
       return "the load step became too small";
+    case StopReason::interrupted:
+      return "interrupted";
   }
   return "unknown";
 }
@@ -251,6 +253,10 @@ LoadReport load_stepping(const EquilibriumProblem& problem, LinearSystem& system
   Path path;
   path.add(from, Equations(problem, from).start(state));
   while (report.reached < 1) {
+    if (options.interrupted && options.interrupted()) {
+      report.reason = StopReason::interrupted;
+      return report;
+    }
     const double rest = 1 - report.reached;
     const int steps_left = static_cast<int>(std::ceil(rest / step - kNearly));
     const double load = steps_left <= 1 ? 1 : report.reached + std::max(rest / steps_left, 0.75 * step);

@@ -42,7 +42,14 @@ struct NewtonOptions {
   int max_halvings = 12;
 };
 
-enum class StopReason { converged, max_iterations, line_search_failed, singular_tangent, step_too_small };
+enum class StopReason {
+  converged,
+  max_iterations,
+  line_search_failed,
+  singular_tangent,
+  step_too_small,
+  interrupted
+};
 std::string to_string(StopReason reason);
 
 struct NewtonReport {
@@ -61,6 +68,7 @@ struct LoadOptions {
   double path_slack = 1;  ///< factor on the tolerances of Newton before λ = 1
   NewtonOptions newton;
   std::function<void(double load, const Vector& c)> on_step{};  ///< called at every equilibrium of the path
+  std::function<bool()> interrupted{};  ///< asked before each step; true ends the path
 };
 
 struct LoadReport {

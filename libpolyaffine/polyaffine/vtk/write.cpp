@@ -11,9 +11,12 @@
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include <algorithm>
-#include <fstream>
+#include <cerrno>
+#include <polyaffine/core/atomic_file.hpp>
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/vtk/message_trap.hpp>
+#include <sstream>
+#include <system_error>
 
 namespace polyaffine {
 namespace {
@@ -27,21 +30,6 @@ void check_target(const path& file, const std::string& extension) {
   const path folder = file.has_parent_path() ? file.parent_path() : path(".");
   if (!std::filesystem::is_directory(folder))
     throw InputError(file.string() + ": found no folder " + folder.string() + " to write into");
-}
-
-path temporary_name(const path& file) {
-  path name = file;
-  name += ".part";
-  return name;
-}
-
-void rename_whole(const path& temporary, const path& file, bool written) {
-  std::error_code error;
-  if (written) std::filesystem::rename(temporary, file, error);
-  if (written && !error) return;
-  std::error_code ignored;
-  std::filesystem::remove(temporary, ignored);
-  throw ComputationError(file.string() + ": cannot be written" + (error ? ": " + error.message() : ""));
 }
 
 void check_width(const path& file, const std::string& name, const Matrix& field, int expected,
@@ -132,16 +120,19 @@ void write_vtu(const path& file, const TetMesh& mesh, const WriteFields& fields)
   }
 
   const MessageTrap trap;
-  const path temporary = temporary_name(file);
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   writer->SetCompressorTypeToZLib();
   writer->SetCompressionLevel(1);
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
-  writer->SetFileName(temporary.c_str());
   writer->SetInputData(grid);
-  const bool written = writer->Write() == 1 && trap.first_error().empty();
-  rename_whole(temporary, file, written);
+  write_atomically(file, [&](const path& temporary) {
+    errno = 0;
+    writer->SetFileName(temporary.c_str());
+    if (writer->Write() != 1 || !trap.first_error().empty())
+      throw ComputationError("cannot write " + file.string() + " to its end" +
+                             (errno == 0 ? "" : ": " + std::generic_category().message(errno)));
+  });
 }
 
 void write_pvd(const path& file, const std::vector<double>& times_ms, const std::vector<path>& files) {
@@ -150,8 +141,7 @@ void write_pvd(const path& file, const std::vector<double>& times_ms, const std:
     throw InputError(file.string() + ": found " + std::to_string(times_ms.size()) + " times for " +
                      std::to_string(files.size()) + " files, expected as many");
   const path folder = file.has_parent_path() ? file.parent_path() : path(".");
-  const path temporary = temporary_name(file);
-  std::ofstream out(temporary);
+  std::ostringstream out;
   out.precision(15);
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
   for (std::size_t i = 0; i < files.size(); ++i)
@@ -162,8 +152,7 @@ void write_pvd(const path& file, const std::vector<double>& times_ms, const std:
                .generic_string()
         << "\"/>\n";
   out << "  </Collection>\n</VTKFile>\n";
-  out.close();
-  rename_whole(temporary, file, !out.fail());
+  write_atomically(file, out.str());
 }
 
 }  // namespace polyaffine

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <fstream>
@@ -84,6 +86,29 @@ TEST_F(AtomicFile, FullDiskIsToldAndLeavesTheOldFile) {
   EXPECT_THAT(message, ::testing::HasSubstr(target.string()));
   EXPECT_EQ(content(target), "old");
   EXPECT_EQ(files(), 1);
+}
+
+TEST_F(AtomicFile, FilesOfKilledWritersAreRemovedAndNoOthers) {
+  const pid_t killed = fork();
+  if (killed == 0) {
+    write_atomically(target, [](const fs::path& path) {
+      std::ofstream(path) << "half" << std::flush;
+      ::kill(::getpid(), SIGKILL);
+    });
+    ::_exit(0);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(killed, &status, 0), killed);
+  ASSERT_TRUE(WIFSIGNALED(status));
+  EXPECT_FALSE(fs::exists(target));
+  ASSERT_EQ(files(), 1) << "the temporary file";
+  std::ofstream(folder / ("other.tmp-" + std::to_string(killed))) << "of the user";
+  write_atomically(target, [&](const fs::path& path) {
+    std::ofstream(path) << "being written";
+    remove_abandoned(folder);
+  });
+  EXPECT_EQ(content(target), "being written");
+  EXPECT_EQ(files(), 2);
 }
 
 TEST_F(AtomicFile, MissingFolderAndUnusableTargetAreInputErrorsThatNameThePath) {

@@ -1,0 +1,108 @@
+#include "cardiac/heart/checkpoint.hpp"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include <polyaffine/core/error.hpp>
+
+namespace cardiac {
+namespace {
+
+using Json = nlohmann::json;
+using polyaffine::InputError;
+using polyaffine::Vector;
+
+std::vector<double> numbers(const Vector& v) {
+  return {v.begin(), v.end()};
+}
+
+Vector vector_of(const Json& list) {
+  const auto values = list.get<std::vector<double>>();
+  return Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+// What must agree: without the keys that change nothing of the beats so far.
+Json essential(Json protocol) {
+  protocol.erase("output");
+  protocol["time"].erase("max_beats");
+  return protocol;
+}
+
+void check_same(const std::string& what, const std::string& found, const std::string& expected,
+                const std::filesystem::path& file) {
+  if (found != expected)
+    throw InputError(file.string() + ": " + what + ": found " + found + ", expected " + expected +
+                     " as of this run; run without --resume to begin anew");
+}
+
+void check_protocol(const Json& found, const Json& expected, const std::filesystem::path& file) {
+  const Json patch = Json::diff(essential(found), essential(expected));
+  if (patch.empty()) return;
+  const Json::json_pointer key(patch.front().at("path").get<std::string>());
+  const auto value = [&](const Json& protocol) {
+    return protocol.contains(key) ? protocol.at(key).dump() : "nothing";
+  };
+  check_same("protocol" + key.to_string(), value(found), value(expected), file);
+}
+
+Checkpoint checkpoint_of(const Json& json) {
+  Checkpoint out;
+  out.beats = json.at("beats");
+  out.time_steps = json.at("time_steps");
+  out.newton_iterations = json.at("newton_iterations");
+  out.stroke_volumes_mm3 = json.at("stroke_volumes_mm3").get<std::vector<double>>();
+  out.min_det_F = json.at("min_det_F");
+  out.max_det_F = json.at("max_det_F");
+  out.cost.residuals = json.at("residuals");
+  out.cost.factorisations = json.at("factorisations");
+  out.cost.linear_solves = json.at("linear_solves");
+  out.cost.error_test_failures = json.at("error_test_failures");
+  out.cost.convergence_failures = json.at("convergence_failures");
+  out.y = vector_of(json.at("y"));
+  out.rate = vector_of(json.at("rate"));
+  return out;
+}
+
+}  // namespace
+
+std::string checkpoint_text(const Checkpoint& at, const CheckpointOrigin& origin) {
+  const Json json{{"version", origin.version},
+                  {"mesh", origin.mesh},
+                  {"protocol", Json::parse(origin.protocol_json)},
+                  {"beats", at.beats},
+                  {"time_steps", at.time_steps},
+                  {"newton_iterations", at.newton_iterations},
+                  {"stroke_volumes_mm3", at.stroke_volumes_mm3},
+                  {"min_det_F", at.min_det_F},
+                  {"max_det_F", at.max_det_F},
+                  {"residuals", at.cost.residuals},
+                  {"factorisations", at.cost.factorisations},
+                  {"linear_solves", at.cost.linear_solves},
+                  {"error_test_failures", at.cost.error_test_failures},
+                  {"convergence_failures", at.cost.convergence_failures},
+                  {"y", numbers(at.y)},
+                  {"rate", numbers(at.rate)}};
+  return json.dump() + "\n";
+}
+
+Checkpoint read_checkpoint(const std::filesystem::path& file, const CheckpointOrigin& origin) {
+  try {
+    std::ifstream stream(file);
+    const Json json = Json::parse(stream);
+    check_same("version", json.at("version"), origin.version, file);
+    check_same("mesh", json.at("mesh"), origin.mesh, file);
+    const Json protocol = Json::parse(origin.protocol_json);
+    check_protocol(json.at("protocol"), protocol, file);
+    Checkpoint out = checkpoint_of(json);
+    if (out.beats >= protocol.at("time").at("max_beats").get<int>())
+      throw InputError(file.string() + ": holds " + std::to_string(out.beats) +
+                       " beats, expected fewer than time.max_beats");
+    if (out.y.size() != out.rate.size()) throw InputError(file.string() + ": y and rate differ in length");
+    return out;
+  } catch (const Json::exception& error) {
+    throw InputError(file.string() + ": found a damaged checkpoint (" + error.what() + ")");
+  }
+}
+
+}  // namespace cardiac
