@@ -1,5 +1,4 @@
 #include <toml++/toml.h>
-#include <regex>
 #include <sstream>
 
 #include <cardiac/protocol/entries.hpp>
@@ -8,6 +7,13 @@
 
 namespace cardiac::protocol {
 namespace {
+
+const std::string kDigits = "0123456789";
+const std::string kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
+
+bool made_of(const std::string& text, const std::string& letters) {
+  return text.find_first_not_of(letters) == std::string::npos;
+}
 
 Json json_of(const toml::node& node) {
   if (const auto* number = node.as_floating_point()) return number->get();
@@ -20,6 +26,14 @@ Json json_of(const toml::node& node) {
     return list;
   }
   return {};
+}
+
+/// At most some lines of a message, cut between two characters of UTF-8.
+std::string shortened(const std::string& text) {
+  std::size_t end = 200;
+  if (text.size() <= end) return text;
+  while ((static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
+  return text.substr(0, end) + " ...";
 }
 
 std::string found_text(const toml::node& node) {
@@ -41,7 +55,7 @@ std::string found_text(const toml::node& node) {
   } else {
     text << "a date or time";
   }
-  return text.str();
+  return shortened(text.str());
 }
 
 /// Flattens a document; `place` is the name of the source, with the line added unless it is an option.
@@ -73,7 +87,8 @@ class Flattening {
   void add_numbered(const std::string& table, const toml::table& elements) {
     for (const auto& [number, node] : elements) {
       const std::string digits(number.str());
-      if (!std::regex_match(digits, std::regex("[1-9][0-9]{0,3}")) || !node.is_table()) {
+      if (digits.empty() || digits.size() > 4 || digits.front() == '0' || !made_of(digits, kDigits) ||
+          !node.is_table()) {
         throw polyaffine::InputError(place_ + ": " + table + '.' + digits + ": expected the number of a [[" +
                                      table + "]] entry, from 1, and a key: " + table + ".1.KEY=VALUE");
       }
@@ -118,15 +133,17 @@ std::vector<Entry> read_entries(const std::string& text, const std::string& sour
 }
 
 std::vector<Entry> read_override(const std::string& assignment) {
-  const std::string option = "--set " + assignment;
+  const std::string option = "--set " + shortened(assignment);
   const auto equals = assignment.find('=');
   const std::string path = trimmed(assignment.substr(0, equals));
   const std::string value = equals == std::string::npos ? "" : trimmed(assignment.substr(equals + 1));
-  if (!std::regex_match(path, std::regex("[A-Za-z0-9_-]+(\\.[A-Za-z0-9_-]+)*")) || value.empty()) {
+  if (path.empty() || !made_of(path, kLetters + kDigits + "_-.") || path.front() == '.' ||
+      path.back() == '.' || path.find("..") != std::string::npos || value.empty()) {
     throw polyaffine::InputError(option + ": expected key.path=value, for instance time.heart_rate_bpm=60");
   }
-  const bool word = std::regex_match(value, std::regex("[A-Za-z_./][A-Za-z0-9_./-]*")) && value != "true" &&
-                    value != "false" && value != "inf" && value != "nan";
+  const bool word = made_of(value, kLetters + kDigits + "_./-") &&
+                    !made_of(value.substr(0, 1), kDigits + "-") && value != "true" && value != "false" &&
+                    value != "inf" && value != "nan";
   try {
     return Flattening(option, false).document(toml::parse(path + " = " + (word ? '"' + value + '"' : value)));
   } catch (const toml::parse_error& error) {

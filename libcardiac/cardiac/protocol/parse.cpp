@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdint>
 #include <fstream>
 #include <sstream>
 
@@ -43,6 +44,10 @@ void merge(std::vector<Entry>& entries, std::vector<Entry> overrides) {
                    nearest + (unit_left_out ? " (the unit is part of the name)" : ""));
 }
 
+// More than any protocol needs, and few enough for the checks to take no time.
+constexpr std::uintmax_t kMostBytes = 1 << 20;
+constexpr std::size_t kMostListEntries = 100;
+
 void assign(Protocol& protocol, const Entry& entry) {
   const Table* table = find_table(entry.table.empty() ? entry.key : entry.table);
   if (entry.table.empty() && table != nullptr) {
@@ -54,6 +59,10 @@ void assign(Protocol& protocol, const Entry& entry) {
     if (entry.table.empty() || !entry.key.empty()) fail_unknown(entry);
     throw InputError(entry.where + ": " + entry.table + ": unknown table; the nearest known table is " +
                      nearest_table(entry.table));
+  }
+  if (entry.index >= kMostListEntries) {
+    throw InputError(entry.where + ": " + entry.table + ": found more than " +
+                     std::to_string(kMostListEntries) + " entries [[" + table->name + "]]");
   }
   if (entry.key.empty()) return entry.value.is_array() ? void() : table->open(protocol, entry.index);
   const Key* key = find_key(*table, entry.key);
@@ -141,6 +150,10 @@ Protocol load_protocol(const std::filesystem::path& file, const std::vector<std:
   if (file.extension() != ".toml") {
     throw InputError(file.string() + ": found the extension \"" + file.extension().string() +
                      "\", expected a protocol with the extension .toml");
+  }
+  if (const auto bytes = std::filesystem::file_size(file); bytes > kMostBytes) {
+    throw InputError(file.string() + ": found " + std::to_string(bytes) +
+                     " bytes, expected a protocol of at most " + std::to_string(kMostBytes));
   }
   std::ifstream stream(file);
   std::ostringstream text;
