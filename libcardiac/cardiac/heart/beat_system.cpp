@@ -63,10 +63,10 @@ bool BeatSystem::residual(double t, const Vector& y, const Vector& rate, Vector&
   const auto& fixed = ventricle_.discretisation.fixed;
   for (int i = 0; i < num_c_; ++i)
     if (fixed[i]) out[i] = c[i];
-  const LoopResidual loop = loop_residual(loop_, rate[num_c_], p, y[num_c_ + 2], rate[num_c_ + 2]);
+  loop_state_ = loop_residual(loop_, rate[num_c_], p, y[num_c_ + 2], rate[num_c_ + 2]);
   out[num_c_] = y[num_c_] - cavity.value;
-  out[num_c_ + 1] = loop.volume;
-  out[num_c_ + 2] = loop.capacitor;
+  out[num_c_ + 1] = loop_state_.volume;
+  out[num_c_ + 2] = loop_state_.capacitor;
   return true;
 }
 
@@ -91,7 +91,7 @@ bool BeatSystem::factorise(double t, const Vector& y, const Vector& rate, double
   for (int i = 0; i < num_c_; ++i)
     if (fixed[i]) volume_gradient_[i] = 0;
   solved_gradient_ = system_->solve(volume_gradient_);
-  loop_slopes_ = loop_residual(loop_, rate[num_c_], p, y[num_c_ + 2], rate[num_c_ + 2]);
+  loop_state_ = loop_residual(loop_, rate[num_c_], p, y[num_c_ + 2], rate[num_c_ + 2]);
   alpha_ = alpha;
   return true;
 }
@@ -104,9 +104,9 @@ bool BeatSystem::solve(const Vector& rhs, Vector& x) {
   const double base_volume = rhs[num_c_] + volume_gradient_.dot(w);
   const double compliance = volume_gradient_.dot(solved_gradient_);
   Eigen::Matrix2d A;
-  A << alpha_ * compliance + loop_slopes_.volume_by_pressure, loop_slopes_.volume_by_capacitor_pressure,
-      loop_slopes_.capacitor_by_pressure,
-      loop_slopes_.capacitor_by_capacitor_pressure + alpha_ * loop_slopes_.capacitor_by_capacitor_rate;
+  A << alpha_ * compliance + loop_state_.volume_by_pressure, loop_state_.volume_by_capacitor_pressure,
+      loop_state_.capacitor_by_pressure,
+      loop_state_.capacitor_by_capacitor_pressure + alpha_ * loop_state_.capacitor_by_capacitor_rate;
   const Eigen::Vector2d pressures =
       A.partialPivLu().solve(Eigen::Vector2d(rhs[num_c_ + 1] - alpha_ * base_volume, rhs[num_c_ + 2]));
   x.resize(size());

@@ -46,7 +46,7 @@ class BeatSystem : public polyaffine::DaeSystem {
   double tension_time_;
   polyaffine::Vector tension_;
   polyaffine::Vector volume_gradient_, solved_gradient_;  // g and K⁻¹g of the last factorisation
-  LoopResidual loop_slopes_{};
+  LoopResidual loop_state_{};  // at the state evaluated last: valves open and close within a step
   double alpha_ = 0;
   double min_det_ = 1, max_det_ = 1;
   SolveCost cost_;

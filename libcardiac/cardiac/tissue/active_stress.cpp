@@ -9,18 +9,17 @@ namespace cardiac {
 
 using namespace polyaffine;
 
-ActiveStress::ActiveStress(FibreAxes axes, double cross_fibre_fraction)
-    : axes_(std::move(axes)), cross_fibre_fraction_(cross_fibre_fraction) {
+ActiveStress::ActiveStress(const FibreAxes& axes, double cross_fibre_fraction)
+    : axes_(axes), cross_fibre_fraction_(cross_fibre_fraction) {
   require(cross_fibre_fraction >= 0 && cross_fibre_fraction <= 1, "cross-fibre fraction of active tension",
           cross_fibre_fraction, "a dimensionless number from 0 to 1");
-  require_orthonormal(axes_);
 }
 
 void ActiveStress::respond(PackPoints points, const Mat3Pack& f, PointState tension_kPa, bool tangent,
                            PackResponse& r) const {
   if (tension_kPa.size() < static_cast<std::size_t>(points.point) + static_cast<std::size_t>(points.lanes))
     throw ComputationError("active stress: the state holds fewer tensions than there are points");
-  const Mat3Pack R = pack_axes(axes_, points);
+  const Mat3Pack R = axes_.at(points);
   const Pack tension = gather(tension_kPa.data() + points.point, 1, points.lanes);
   const Pack cross = cross_fibre_fraction_ * tension;
   SymPack S;

@@ -13,13 +13,13 @@ class ActiveStress : public polyaffine::Law {
  public:
   /// `cross_fibre_fraction` n_c, dimensionless, 0 to 1. Throws InputError, also for axes that are not
   /// orthonormal.
-  explicit ActiveStress(FibreAxes axes, double cross_fibre_fraction = 0);
+  explicit ActiveStress(const FibreAxes& axes, double cross_fibre_fraction = 0);
   /// Throws ComputationError when `tension_kPa` has none for one of the points.
   void respond(polyaffine::PackPoints points, const polyaffine::Mat3Pack& F,
                polyaffine::PointState tension_kPa, bool tangent, polyaffine::PackResponse& r) const override;
 
  private:
-  FibreAxes axes_;
+  FibrePacks axes_;
   double cross_fibre_fraction_;
 };
 

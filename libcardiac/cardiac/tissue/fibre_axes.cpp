@@ -16,4 +16,10 @@ void require_orthonormal(const FibreAxes& axes) {
   }
 }
 
+FibrePacks::FibrePacks(const FibreAxes& axes) : size_(axes.cols()), rows_(size_ + polyaffine::kLanes, 9) {
+  require_orthonormal(axes);
+  rows_.topRows(size_) = axes.transpose();
+  rows_.bottomRows(polyaffine::kLanes).rowwise() = polyaffine::Mat3::Identity().reshaped().transpose();
+}
+
 }  // namespace cardiac

@@ -35,19 +35,18 @@ LagrangianResponse lagrangian_response(const GuccioneParameters& p, const SymPac
 
 }  // namespace
 
-Guccione::Guccione(GuccioneParameters parameters, FibreAxes axes, std::vector<double> factor)
-    : parameters_(parameters), axes_(std::move(axes)), factor_(std::move(factor)) {
+Guccione::Guccione(GuccioneParameters parameters, const FibreAxes& axes, std::vector<double> factor)
+    : parameters_(parameters), axes_(axes), factor_(std::move(factor)) {
   require_positive("Guccione C", parameters.C_kPa, "kPa");
   require_not_negative("Guccione bf", parameters.bf, "1 (dimensionless)");
   require_not_negative("Guccione bt", parameters.bt, "1 (dimensionless)");
   require_not_negative("Guccione bfs", parameters.bfs, "1 (dimensionless)");
-  require_orthonormal(axes_);
-  factor_.require_size(axes_.cols());
+  factor_.require_size(axes_.size());
 }
 
 void Guccione::respond(PackPoints points, const Mat3Pack& f, PointState, bool tangent,
                        PackResponse& r) const {
-  const Mat3Pack R = pack_axes(axes_, points);
+  const Mat3Pack R = axes_.at(points);
   const Mat3Pack local = to_local_axes(f, R);
   const SymPack C = right_cauchy_green(local);
   LagrangianResponse l;

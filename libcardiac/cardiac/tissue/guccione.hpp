@@ -23,13 +23,13 @@ class Guccione : public polyaffine::Law {
  public:
   /// `factor` multiplies W (one per point, empty = 1). Throws InputError for impossible constants, axes that
   /// are not orthonormal or a number of factors other than that of the axes.
-  Guccione(GuccioneParameters parameters, FibreAxes axes, std::vector<double> factor = {});
+  Guccione(GuccioneParameters parameters, const FibreAxes& axes, std::vector<double> factor = {});
   void respond(polyaffine::PackPoints points, const polyaffine::Mat3Pack& F, polyaffine::PointState state,
                bool tangent, polyaffine::PackResponse& r) const override;
 
  private:
   GuccioneParameters parameters_;
-  FibreAxes axes_;
+  FibrePacks axes_;
   polyaffine::StiffnessFactor factor_;
 };
 

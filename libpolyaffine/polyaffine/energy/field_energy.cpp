@@ -83,8 +83,10 @@ FieldEnergy::Kinematics FieldEnergy::kinematics(const Motion& motion) const {
   for_range(table_.num_points() > kSerialPoints, 0, static_cast<int>(packed_.size()), [&](int k) {
     const PackedBlock& block = packed_[k];
     Mat3Pack* F = kin.F.data() + first_pack_[k];
-    block.field(motion.c, true, F);
-    if (with_rate) block.field(*motion.rate, false, kin.rate.data() + first_pack_[k]);
+    if (with_rate)
+      block.field_and_rate(motion.c, *motion.rate, F, kin.rate.data() + first_pack_[k]);
+    else
+      block.field(motion.c, true, F);
     for (int p = 0; p < block.num_packs(); ++p) {
       const Pack J = determinant(F[p], cofactor(F[p]));
       const auto [point, lanes] = block.points(p);

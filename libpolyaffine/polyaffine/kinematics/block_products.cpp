@@ -99,11 +99,10 @@ void pull_back_columns(const Group& g, int pack, const Pack* X, Strides x, int c
         continue;
       }
       for (int c = 0; c < columns; ++c) Y[row * y.row + c * y.column] = Pack{};
-      const double* L = g.lift.data() + (static_cast<std::ptrdiff_t>(pack) * 3 * g.d + row) * 9 * kLanes;
       for (int J = 0; J < 3; ++J) {
-        if (!g.present[J][e]) continue;
-        const Pack l[3] = {load(L + 3 * J * kLanes), load(L + (3 * J + 1) * kLanes),
-                           load(L + (3 * J + 2) * kLanes)};
+        if (g.place[J][e] < 0) continue;
+        const double* L = g.lift_block(pack, J, e) + static_cast<std::ptrdiff_t>(3 * k * kLanes);
+        const Pack l[3] = {load(L), load(L + kLanes), load(L + 2 * kLanes)};
         const Pack* from = X + 3 * J * x.row;
         for (int c = 0; c < columns; ++c, from += x.column)
           Y[row * y.row + c * y.column] += l[0] * from[0] + l[1] * from[x.row] + l[2] * from[2 * x.row];

@@ -1,6 +1,8 @@
 #include "polyaffine/kinematics/packed_block.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 namespace polyaffine {
 namespace {
@@ -10,6 +12,11 @@ using Group = PackedBlock::Group;
 // Column of the point in lane `lane` of pack `pack`; the last point stands for missing ones.
 int point_of(const PointBlock& block, int pack, int lane) {
   return std::min(kLanes * pack + lane, block.count - 1);
+}
+
+// Block (J, e) of a lift.
+auto part(const FunctionGroup::Lift& L, int J, int e) {
+  return L.block<3, 3>(3 * static_cast<Eigen::Index>(J), 3 * static_cast<Eigen::Index>(e));
 }
 
 Group pack_group(const FunctionGroup& g, const PointBlock& block, int packs) {
@@ -28,53 +35,62 @@ Group pack_group(const FunctionGroup& g, const PointBlock& block, int packs) {
       for (int e = 0; e < g.d; ++e)
         for (int lane = 0; lane < kLanes; ++lane)
           out.by_pack.push_back(out.by_point(a, g.d * (kLanes * p + lane) + e));
-  for (auto& row : out.present) std::fill(std::begin(row), std::end(row), false);
-  if (!out.lifted) {
-    for (int J = 0; J < 3; ++J) out.present[J][J] = true;
-    return out;
-  }
-  for (const auto& L : g.lift)
-    for (int J = 0; J < 3; ++J)
-      for (int e = 0; e < g.d; ++e) out.present[J][e] |= !L.block<3, 3>(3 * J, 3 * e).isZero(0);
+  for (auto& row : out.place) std::fill(std::begin(row), std::end(row), -1);
+  if (!out.lifted) return out;
+  std::vector<std::pair<int, int>> stored;  // (J, e) of the first of equal blocks
+  for (int J = 0; J < 3; ++J)
+    for (int e = 0; e < g.d; ++e) {
+      if (std::all_of(g.lift.begin(), g.lift.end(), [&](const auto& L) { return part(L, J, e).isZero(0); }))
+        continue;
+      const auto equal = std::find_if(stored.begin(), stored.end(), [&](const auto& other) {
+        return std::all_of(g.lift.begin(), g.lift.end(), [&](const auto& L) {
+          return part(L, J, e) == part(L, other.first, other.second);
+        });
+      });
+      out.place[J][e] = static_cast<int>(equal - stored.begin());
+      if (equal == stored.end()) stored.emplace_back(J, e);
+    }
+  out.stored = static_cast<int>(stored.size());
   for (int p = 0; p < packs; ++p)
-    for (int j = 0; j < 3 * g.d; ++j)
-      for (int i = 0; i < 9; ++i)
-        for (int lane = 0; lane < kLanes; ++lane) out.lift.push_back(g.lift[point_of(block, p, lane)](i, j));
+    for (const auto& [J, e] : stored)
+      for (int k = 0; k < 3; ++k)
+        for (int m = 0; m < 3; ++m)
+          for (int lane = 0; lane < kLanes; ++lane)
+            out.lift.push_back(part(g.lift[point_of(block, p, lane)], J, e)(m, k));
   return out;
 }
 
-const double* lift_column(const Group& g, int pack, int column) {
-  return g.lift.data() + (static_cast<std::ptrdiff_t>(pack) * 3 * g.d + column) * 9 * kLanes;
+// The field of a group at one pack: adds to M.
+template <int d>
+void add_pack(const Group& g, int p, const double* c, Mat3Pack& M) {
+  const double* rows = g.by_pack.data() + static_cast<std::ptrdiff_t>(p) * g.num_functions * d * kLanes;
+  Pack Y[3 * d] = {};
+  for (int a = 0; a < g.num_functions; ++a, rows += d * kLanes) {
+    const double* ca = c + 3 * static_cast<std::ptrdiff_t>(a);
+#pragma GCC unroll 4
+    for (int e = 0; e < d; ++e) {
+      const Pack row = load(rows + e * kLanes);
+#pragma GCC unroll 3
+      for (int k = 0; k < 3; ++k) Y[k + 3 * e] += ca[k] * row;
+    }
+  }
+  if (!g.lifted) {
+    for (int i = 0; i < 9; ++i) M.m[i] += Y[i];
+    return;
+  }
+  for (int e = 0; e < d; ++e)
+    for (int J = 0; J < 3; ++J) {
+      if (g.place[J][e] < 0) continue;
+      const double* L = g.lift_block(p, J, e);
+#pragma GCC unroll 3
+      for (int k = 0; k < 3; ++k)
+#pragma GCC unroll 3
+        for (int m = 0; m < 3; ++m) M(m, J) += load(L + (m + 3 * k) * kLanes) * Y[k + 3 * e];
+    }
 }
 
-template <int d>
-void add_group(const Group& g, int packs, const double* c, Mat3Pack* M) {
-  const double* rows = g.by_pack.data();
-  for (int p = 0; p < packs; ++p) {
-    Pack Y[3 * d] = {};
-    for (int a = 0; a < g.num_functions; ++a, rows += d * kLanes) {
-      const double* ca = c + 3 * static_cast<std::ptrdiff_t>(a);
-#pragma GCC unroll 4
-      for (int e = 0; e < d; ++e) {
-        const Pack row = load(rows + e * kLanes);
-#pragma GCC unroll 3
-        for (int k = 0; k < 3; ++k) Y[k + 3 * e] += ca[k] * row;
-      }
-    }
-    if (!g.lifted) {
-      for (int i = 0; i < 9; ++i) M[p].m[i] += Y[i];
-      continue;
-    }
-    for (int e = 0; e < d; ++e)
-      for (int J = 0; J < 3; ++J)
-        if (g.present[J][e])
-#pragma GCC unroll 3
-          for (int k = 0; k < 3; ++k) {
-            const double* L = lift_column(g, p, k + 3 * e) + 3 * kLanes * static_cast<std::ptrdiff_t>(J);
-#pragma GCC unroll 3
-            for (int m = 0; m < 3; ++m) M[p](m, J) += load(L + m * kLanes) * Y[k + 3 * e];
-          }
-  }
+void add_pack(const Group& g, int p, const double* c, Mat3Pack& M) {
+  (g.d == 4 ? add_pack<4> : add_pack<3>)(g, p, c, M);
 }
 
 template <int d>
@@ -114,19 +130,44 @@ PackedBlock::PackedBlock(const PointBlock& block, const FieldTable& table) : fun
   for (const auto& group : block.groups) groups_.push_back(pack_group(group, block, packs));
 }
 
-void PackedBlock::field(const Vector& c, bool with_base, Mat3Pack* M) const {
-  for (int p = 0; p < num_packs(); ++p)
-    for (int i = 0; i < 9; ++i) {
-      M[p].m[i] = broadcast(with_base && i % 4 == 0 ? 1 : 0);
-      if (with_base && !base_.empty())
-        M[p].m[i] = load(base_.data() + (9 * static_cast<std::ptrdiff_t>(p) + i) * kLanes);
-    }
+std::vector<double> PackedBlock::gather(const Vector& c) const {
   std::vector<double> own;
+  own.reserve(3 * functions_.size());
   for (const int f : functions_) own.insert(own.end(), {c[3 * f], c[3 * f + 1], c[3 * f + 2]});
-  const double* at = own.data();
-  for (const auto& g : groups_) {
-    (g.d == 4 ? add_group<4> : add_group<3>)(g, num_packs(), at, M);
-    at += 3 * static_cast<std::ptrdiff_t>(g.num_functions);
+  return own;
+}
+
+Mat3Pack PackedBlock::base(int pack) const {
+  Mat3Pack M;
+  for (int i = 0; i < 9; ++i)
+    M.m[i] = base_.empty() ? broadcast(i % 4 == 0 ? 1 : 0)
+                           : load(base_.data() + (9 * static_cast<std::ptrdiff_t>(pack) + i) * kLanes);
+  return M;
+}
+
+void PackedBlock::field(const Vector& c, bool with_base, Mat3Pack* M) const {
+  const std::vector<double> own = gather(c);
+  for (int p = 0; p < num_packs(); ++p) {
+    M[p] = with_base ? base(p) : Mat3Pack{};
+    const double* at = own.data();
+    for (const auto& g : groups_) {
+      add_pack(g, p, at, M[p]);
+      at += 3 * static_cast<std::ptrdiff_t>(g.num_functions);
+    }
+  }
+}
+
+void PackedBlock::field_and_rate(const Vector& c, const Vector& rate, Mat3Pack* M, Mat3Pack* M_rate) const {
+  const std::vector<double> own = gather(c), own_rate = gather(rate);
+  for (int p = 0; p < num_packs(); ++p) {
+    M[p] = base(p);
+    M_rate[p] = Mat3Pack{};
+    std::ptrdiff_t at = 0;
+    for (const auto& g : groups_) {
+      add_pack(g, p, own.data() + at, M[p]);
+      add_pack(g, p, own_rate.data() + at, M_rate[p]);
+      at += 3 * static_cast<std::ptrdiff_t>(g.num_functions);
+    }
   }
 }
 
@@ -147,13 +188,12 @@ void pull_back(const PackedBlock::Group& g, int pack, const Mat3Pack& S, Pack* Y
   for (int e = 0; e < g.d; ++e) {
     Pack y[3] = {};
     for (int J = 0; J < 3; ++J) {
-      if (!g.present[J][e]) continue;
+      if (g.place[J][e] < 0) continue;
+      const double* L = g.lift_block(pack, J, e);
 #pragma GCC unroll 3
-      for (int k = 0; k < 3; ++k) {
-        const double* L = lift_column(g, pack, k + 3 * e) + 3 * kLanes * static_cast<std::ptrdiff_t>(J);
+      for (int k = 0; k < 3; ++k)
 #pragma GCC unroll 3
-        for (int m = 0; m < 3; ++m) y[k] += load(L + m * kLanes) * S.m[m + 3 * J];
-      }
+        for (int m = 0; m < 3; ++m) y[k] += load(L + (m + 3 * k) * kLanes) * S.m[m + 3 * J];
     }
 #pragma GCC unroll 3
     for (int k = 0; k < 3; ++k) Y[k + 3 * e] = y[k];

@@ -17,14 +17,18 @@ class PackedBlock {
     int num_functions = 0;
     int padded = 0;       ///< functions, rounded up to a multiple of four
     bool lifted = false;  ///< the lift is not the identity
-    bool present[3][4];   ///< which 3×3 blocks of the lift are not zero
+    int place[3][4];      ///< of the 3×3 blocks of the lift among the stored ones; −1: zero
+    int stored = 0;       ///< 3×3 blocks that differ
     /// Row e of function a at the points of pack p: kLanes numbers from ((p · num_functions + a) d + e)
     /// kLanes.
     std::vector<double> by_pack;
     /// The same rows, function a fastest: padded × (d · kLanes · packs), point after point.
     Matrix by_point;
-    /// Entry (i, j) of the 9×3d lift of pack p: kLanes numbers from ((p · 3d + j) 9 + i) kLanes.
+    /// Entry (i, j) of stored block b of pack p: kLanes numbers from ((p · stored + b) 9 + i + 3j) kLanes.
     std::vector<double> lift;
+    const double* lift_block(int pack, int J, int e) const {
+      return lift.data() + (static_cast<std::ptrdiff_t>(pack) * stored + place[J][e]) * 9 * kLanes;
+    }
   };
 
   PackedBlock(const PointBlock& block, const FieldTable& table);
@@ -38,10 +42,15 @@ class PackedBlock {
 
   /// M of every pack for the unknowns c; the constant M⁰ only if `with_base`.
   void field(const Vector& c, bool with_base, Mat3Pack* M) const;
+  /// M with M⁰ and its change by the rate of c, in one pass over the rows.
+  void field_and_rate(const Vector& c, const Vector& rate, Mat3Pack* M, Mat3Pack* M_rate) const;
   /// The transpose: the 3 × functions force Σ_q S_q : ∂M_q/∂c of values S.
   void force(const Mat3Pack* S, Matrix& out) const;
 
  private:
+  std::vector<double> gather(const Vector& c) const;
+  Mat3Pack base(int pack) const;
+
   std::vector<PackPoints> points_;
   std::vector<double> weights_;
   std::vector<double> base_;  // 9 numbers a pack; empty: the identity

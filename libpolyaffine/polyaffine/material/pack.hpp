@@ -35,6 +35,7 @@ inline void store(double* data, const Pack& v) {
 /// Reads base[0], base[stride], … one per lane. Lanes from `lanes` on repeat the last valid one, so that the
 /// end of a batch computes on ordinary numbers.
 inline Pack gather(const double* base, std::ptrdiff_t stride, int lanes) {
+  if (stride == 1 && lanes == kLanes) return load(base);
   Pack v;
   for (int lane = 0; lane < kLanes; ++lane) v[lane] = base[stride * (lane < lanes ? lane : lanes - 1)];
   return v;

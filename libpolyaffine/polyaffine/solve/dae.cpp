@@ -7,9 +7,14 @@
 #include <sundials/sundials_matrix.h>
 
 #include <polyaffine/core/error.hpp>
+#include <polyaffine/solve/secant_updates.hpp>
 
 namespace polyaffine {
 namespace {
+
+constexpr double kChangeOfAlpha = 0.5;  // relative, that needs a new factorisation
+constexpr int kMaxIterations = 6;       // of Newton's method in a step
+constexpr double kStepGrowth = 1.3;     // that is worth changing the step for
 
 using ConstMap = Eigen::Map<const Vector>;
 
@@ -46,12 +51,26 @@ SUNMatrix matrix_clone(SUNMatrix A) {
 SUNLinearSolver_Type solver_type(SUNLinearSolver) {
   return SUNLINEARSOLVER_DIRECT;
 }
-int solver_setup(SUNLinearSolver, SUNMatrix) {
+// The system's factorisation, improved by what the iterations since then have shown.
+struct DirectSolver {
+  DaeSystem* system = nullptr;
+  SecantUpdates updates;
+  N_Vector weights = nullptr;
+};
+
+int solver_setup(SUNLinearSolver S, SUNMatrix) {
+  static_cast<DirectSolver*>(S->content)->updates.clear();
+  return 0;
+}
+int solver_scaling(SUNLinearSolver S, N_Vector weights, N_Vector) {
+  static_cast<DirectSolver*>(S->content)->weights = weights;
   return 0;
 }
 int solver_solve(SUNLinearSolver S, SUNMatrix, N_Vector x, N_Vector b, realtype) {
+  auto& solver = *static_cast<DirectSolver*>(S->content);
   Vector out;
-  if (!static_cast<DaeSystem*>(S->content)->solve(view(b), out) || !out.allFinite()) return 1;
+  if (!solver.system->solve(view(b), out) || !out.allFinite()) return 1;
+  solver.updates.improve(view(solver.weights), out);
   Eigen::Map<Vector>(N_VGetArrayPointer(x), out.size()) = out;
   return 0;
 }
@@ -61,10 +80,11 @@ int solver_free(SUNLinearSolver S) {
   return 0;
 }
 
-SUNLinearSolver make_solver(DaeSystem& system, SUNContext context) {
+SUNLinearSolver make_solver(DirectSolver& content, SUNContext context) {
   SUNLinearSolver S = SUNLinSolNewEmpty(context);
-  S->content = &system;
+  S->content = &content;
   S->ops->gettype = solver_type;
+  S->ops->setscalingvectors = solver_scaling;
   S->ops->setup = solver_setup;
   S->ops->solve = solver_solve;
   S->ops->free = solver_free;
@@ -75,11 +95,16 @@ SUNLinearSolver make_solver(DaeSystem& system, SUNContext context) {
 struct UserData {
   DaeSystem* system = nullptr;
   DaeOptions options;
+  DirectSolver* solver = nullptr;
+  double t = 0;  // of the last residual
 };
 
 int residual(realtype t, N_Vector y, N_Vector rate, N_Vector out, void* user) {
+  auto& data = *static_cast<UserData*>(user);
+  if (t != data.t) data.solver->updates.restart();
+  data.t = t;
   Vector r;
-  if (!static_cast<UserData*>(user)->system->residual(t, view(y), view(rate), r) || !r.allFinite()) return 1;
+  if (!data.system->residual(t, view(y), view(rate), r) || !r.allFinite()) return 1;
   Eigen::Map<Vector>(N_VGetArrayPointer(out), r.size()) = r;
   return 0;
 }
@@ -127,6 +152,7 @@ struct DaeIntegrator::Implementation {
   void* ida = nullptr;
   N_Vector y = nullptr, rate = nullptr;
   SUNMatrix matrix = nullptr;
+  DirectSolver direct;
   SUNLinearSolver solver = nullptr;
   UserData user;
   double t = 0;
@@ -147,7 +173,8 @@ DaeIntegrator::DaeIntegrator(DaeSystem& system, const DaeOptions& options, doubl
                              const Vector& rate)
     : impl_(std::make_unique<Implementation>()) {
   auto& m = *impl_;
-  m.user = {&system, options};
+  m.user = {&system, options, &m.direct, t};
+  m.direct.system = &system;
   m.t = t;
   m.y_out = y;
   m.rate_out = rate;
@@ -163,10 +190,15 @@ DaeIntegrator::DaeIntegrator(DaeSystem& system, const DaeOptions& options, doubl
   check(IDASetErrFile(m.ida, nullptr), "IDASetErrFile");
   check(IDAWFtolerances(m.ida, error_weights), "IDAWFtolerances");
   m.matrix = make_matrix(m.context);
-  m.solver = make_solver(system, m.context);
+  m.solver = make_solver(m.direct, m.context);
   check(IDASetLinearSolver(m.ida, m.solver, m.matrix), "IDASetLinearSolver");
   check(IDASetJacFn(m.ida, jacobian), "IDASetJacFn");
   check(IDASetMaxOrd(m.ida, options.max_order), "IDASetMaxOrd");
+  // Iterations learn the tangent's change with α, and that of the state, better than a factor on the step.
+  check(IDASetLinearSolutionScaling(m.ida, SUNFALSE), "IDASetLinearSolutionScaling");
+  check(IDASetDeltaCjLSetup(m.ida, kChangeOfAlpha), "IDASetDeltaCjLSetup");
+  check(IDASetMaxNonlinIters(m.ida, kMaxIterations), "IDASetMaxNonlinIters");
+  check(IDASetEtaFixedStepBounds(m.ida, 1.0, kStepGrowth), "IDASetEtaFixedStepBounds");
   if (options.max_step > 0) check(IDASetMaxStep(m.ida, options.max_step), "IDASetMaxStep");
   if (options.first_step > 0) check(IDASetInitStep(m.ida, options.first_step), "IDASetInitStep");
 }

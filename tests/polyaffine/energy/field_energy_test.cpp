@@ -200,5 +200,27 @@ TEST(FieldEnergy, ThreadsDoNotChangeABit) {
   }
 }
 
+// Forces are shared between threads only where there are more than 4096 points.
+TEST(FieldEnergy, ThreadsDoNotChangeABitOfTheForcesOfManyPoints) {
+  const TetMesh mesh = labelled_cube(6, 0.2);
+  for (const Space space : {Space::none, Space::dense}) {
+    const FieldEnergy energy = make_energy(mesh, {2, space}, KelvinVoigt(2));
+    ASSERT_GT(energy.table().num_points(), 4096);
+    const Vector c = random_vector(energy.table().num_unknowns(), 0.005, 6);
+    const Vector rate = random_vector(energy.table().num_unknowns(), 0.03, 7);
+    const auto run = [&](std::size_t threads) {
+      const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+      return energy.evaluate({c, {}, &rate});
+    };
+    const EnergyValue one = run(1);
+    for (int repeat = 0; repeat < 3; ++repeat) {
+      const EnergyValue two = run(2);
+      EXPECT_EQ(one.value, two.value);
+      EXPECT_EQ(one.min_det, two.min_det);
+      EXPECT_TRUE(one.gradient == two.gradient);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace polyaffine

