@@ -32,8 +32,8 @@ Anatomy build_anatomy(polyaffine::TetMesh mesh, const Protocol& protocol, const 
 }
 
 void add_surface_points(const Anatomy& anatomy, const Protocol& protocol, const LagrangeBasis& geometry,
-                        int degree, Discretisation& discretisation) {
-  const auto points = [&](int label) { return geometry.surface_points(anatomy.mesh, {label}, degree); };
+                        const FaceRule& rule, Discretisation& discretisation) {
+  const auto points = [&](int label) { return geometry.surface_points(anatomy.mesh, {label}, rule); };
   if (protocol.circulation || protocol.cavities)
     discretisation.cavity_points = turned(points(anatomy.labels.endo));
   if (protocol.boundary.epicardial_stiffness_kPa_per_mm > 0)
@@ -56,7 +56,9 @@ Discretisation full_discretisation(const Anatomy& anatomy, const Protocol& proto
       out.fixed[3 * node + k] = 1;
       --out.num_unknowns;
     }
-  add_surface_points(anatomy, protocol, *basis, order == 1 ? 1 : 4, out);
+  const polyaffine::TriangleRule rule = polyaffine::triangle_rule(order == 1 ? 1 : 4);
+  add_surface_points(
+      anatomy, protocol, *basis, [&](int, const LagrangeBasis::FaceCorners&) { return rule; }, out);
   return out;
 }
 

@@ -64,9 +64,13 @@ Discretisation reduced_discretisation(const Anatomy& anatomy, const Protocol& pr
 /// Linear or quadratic finite elements on the whole mesh.
 Discretisation full_discretisation(const Anatomy& anatomy, const Protocol& protocol);
 
+/// Rule of a face, told its tet and its corners.
+using FaceRule =
+    std::function<polyaffine::TriangleRule(int tet, const polyaffine::LagrangeBasis::FaceCorners& corners)>;
+
 /// Adds the points of the surfaces on which the protocol has loads or springs.
 void add_surface_points(const Anatomy& anatomy, const Protocol& protocol,
-                        const polyaffine::LagrangeBasis& geometry, int degree,
+                        const polyaffine::LagrangeBasis& geometry, const FaceRule& rule,
                         Discretisation& discretisation);
 
 /// The pressure space of a discretisation, over the points of its deformation table.

@@ -8,6 +8,7 @@
 #include <polyaffine/geometry/geodesic_regions.hpp>
 #include <polyaffine/kinematics/region_frames.hpp>
 #include <polyaffine/quadrature/cell_rule.hpp>
+#include <polyaffine/quadrature/split_rule.hpp>
 
 namespace cardiac {
 
@@ -22,8 +23,10 @@ using polyaffine::WallPoints;
 
 namespace {
 
-// Degree of the Gauss points of the mesh from which the points of a reduced model are chosen.
-constexpr int kCandidateDegree = 4;
+// Degree of the Gauss points of the mesh from which the points of a reduced model are chosen. Elements that
+// the border of a cell crosses are cut in parts, up to so many times, with points of the second degree each:
+// else the cells' volumes and, more so, the areas that a pressure pushes on are wrong by parts of elements.
+constexpr int kCandidateDegree = 4, kPartDegree = 2, kWallCuts = 1, kSurfaceCuts = 2;
 // Polynomials kept exact in a cell, along u, ψ and the depth: fibres turn by 120° through the wall.
 constexpr polyaffine::CellDegree kCellDegree{4, 4, 8};
 // Total degree in u and ψ of the polynomials kept exact in a cell of a surface.
@@ -65,6 +68,38 @@ Cells tent_cells(const Anatomy& anatomy, const SegmentFrames& frames, const Wall
     out.cell.push_back(c.index);
     out.place.col(q) = Vec3(c.u, c.psi, at.t);
   }
+  return out;
+}
+
+struct CandidatePoints {
+  WallPoints wall;
+  FaceRule face;
+};
+
+// Points that see the cells of the tents as they are, not to the nearest element.
+CandidatePoints tent_candidates(const LagrangeBasis& geometry, const SegmentFrames& frames) {
+  const auto crossed = [&](int tet, const auto& corners) {
+    const auto cell = [&](Eigen::Index k) {
+      const CoordinateSample at = frames.coordinates().sample(tet, corners.col(k));
+      return frames.cell(at.u, at.psi).index;
+    };
+    for (Eigen::Index k = 1; k < corners.cols(); ++k)
+      if (cell(k) != cell(0)) return true;
+    return false;
+  };
+  CandidatePoints out;
+  out.wall = geometry.wall_points(
+      [&, whole = polyaffine::tet_rule(kCandidateDegree), part = polyaffine::tet_rule(kPartDegree)](int tet) {
+        return polyaffine::split_rule(
+            whole, part, [&](const Eigen::Matrix4d& corners) { return crossed(tet, corners); }, kWallCuts);
+      });
+  out.face = [crossed, whole = polyaffine::triangle_rule(kCandidateDegree),
+              part = polyaffine::triangle_rule(kPartDegree)](int tet,
+                                                             const LagrangeBasis::FaceCorners& face) {
+    return polyaffine::split_rule(
+        whole, part, [&](const polyaffine::Mat3& corners) { return crossed(tet, (face * corners).eval()); },
+        kSurfaceCuts);
+  };
   return out;
 }
 
@@ -174,13 +209,18 @@ Discretisation reduced_discretisation(const Anatomy& anatomy, const Protocol& pr
   out.fixed.assign(out.num_unknowns, 0);
 
   const LagrangeBasis& geometry = anatomy.coordinates->space();
-  const WallPoints candidates = geometry.wall_points(kCandidateDegree);
+  const CandidatePoints from =
+      sigmoid ? CandidatePoints{geometry.wall_points(kCandidateDegree),
+                                [rule = polyaffine::triangle_rule(kCandidateDegree)](
+                                    int, const LagrangeBasis::FaceCorners&) { return rule; }}
+              : tent_candidates(geometry, *out.frames);
+  const WallPoints& candidates = from.wall;
   const Cells cells =
       sigmoid ? region_cells(anatomy, out, candidates) : tent_cells(anatomy, *out.frames, candidates);
   out.points = protocol.reduction.integration == protocol::Integration::gauss
                    ? polyaffine::group_cells(candidates, cells.cell)
                    : polyaffine::compress_cells(candidates, cells.cell, cells.place, kCellDegree);
-  add_surface_points(anatomy, protocol, geometry, 4, out);
+  add_surface_points(anatomy, protocol, geometry, from.face, out);
   for (auto* points : {&out.cavity_points, &out.epicardium_points})
     if (!points->tet.empty()) *points = compressed(anatomy, out, *points);
   return out;

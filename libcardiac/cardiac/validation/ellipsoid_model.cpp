@@ -22,12 +22,12 @@ namespace {
 
 constexpr double kForce_mN = 1e6;  // 1000 N
 
-// μ = E / (2 (1 + ν)), κ = E / (3 (1 − 2ν)), of κ one μ at every point.
+// μ = E / (2 (1 + ν)), κ = E / (3 (1 − 2ν)), of κ about three μ at every point.
 constexpr auto kProtocol = R"(
 [mesh]
 shape = "land_ellipsoid"
 [reduction]
-local_bulk_modulus_kPa = 335570.4697986577
+local_bulk_modulus_kPa = 1e6
 [tissue]
 law = "neo_hookean"
 mu_kPa = 335570.4697986577

@@ -140,27 +140,39 @@ BasisSample LagrangeBasis::sample(int tet, const Vec4& barycentric) const {
 }
 
 WallPoints LagrangeBasis::wall_points(int degree) const {
-  const TetRule rule = tet_rule(degree);
-  const auto per_element = static_cast<int>(rule.weights.size());
+  return wall_points([rule = tet_rule(degree)](int) { return rule; });
+}
+
+WallPoints LagrangeBasis::wall_points(const std::function<TetRule(int)>& rule) const {
   const auto elements = static_cast<int>(elements_.cols());
+  std::vector<TetRule> rules;
   WallPoints out;
-  out.barycentric = rule.barycentric.replicate(1, elements);
-  out.weights.resize(static_cast<Eigen::Index>(per_element) * elements);
   out.starts.push_back(0);
   for (int t = 0; t < elements; ++t) {
-    for (int q = 0; q < per_element; ++q) {
-      out.weights[t * per_element + q] =
-          rule.weights[q] * jacobian(t, rule.barycentric.col(q)).determinant() / 6;
-      out.tet.push_back(t);
-    }
+    rules.push_back(rule(t));
+    out.tet.insert(out.tet.end(), rules.back().weights.size(), t);
     out.starts.push_back(static_cast<int>(out.tet.size()));
   }
+  out.barycentric.resize(4, out.starts.back());
+  out.weights.resize(out.starts.back());
+  for (int t = 0; t < elements; ++t)
+    for (Eigen::Index k = 0; k < rules[t].weights.size(); ++k) {
+      const Eigen::Index q = out.starts[t] + k;
+      out.barycentric.col(q) = rules[t].barycentric.col(k);
+      out.weights[q] = rules[t].weights[k] * jacobian(t, out.barycentric.col(q)).determinant() / 6;
+    }
   return out;
 }
 
 SurfacePoints LagrangeBasis::surface_points(const TetMesh& mesh, const std::vector<int>& labels,
                                             int degree) const {
-  const TriangleRule rule = triangle_rule(degree);
+  return surface_points(mesh, labels,
+                        [rule = triangle_rule(degree)](int, const FaceCorners&) { return rule; });
+}
+
+SurfacePoints LagrangeBasis::surface_points(
+    const TetMesh& mesh, const std::vector<int>& labels,
+    const std::function<TriangleRule(int, const FaceCorners&)>& rule_of) const {
   SurfacePoints out;
   std::vector<double> weights;
   std::vector<Vec4> barycentric;
@@ -170,10 +182,14 @@ SurfacePoints LagrangeBasis::surface_points(const TetMesh& mesh, const std::vect
     if (std::find(labels.begin(), labels.end(), mesh.boundary_labels()[f]) == labels.end()) continue;
     const int tet = mesh.boundary_tets()[f];
     std::array<int, 3> corner{};
-    for (int k = 0; k < 3; ++k) corner[k] = local_vertex(mesh, tet, mesh.boundary()(k, f));
+    FaceCorners corners = FaceCorners::Zero();
+    for (int k = 0; k < 3; ++k) {
+      corner[k] = local_vertex(mesh, tet, mesh.boundary()(k, f));
+      corners(corner[k], k) = 1;
+    }
+    const TriangleRule rule = rule_of(tet, corners);
     for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
-      Vec4 l = Vec4::Zero();
-      for (int k = 0; k < 3; ++k) l[corner[k]] = rule.barycentric(k, q);
+      const Vec4 l = corners * rule.barycentric.col(q);
       Vector N;
       Eigen::MatrixX4d derivative;
       shape(l, N, derivative);

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include <polyaffine/kinematics/basis.hpp>
 #include <polyaffine/mesh/curved_edges.hpp>
 #include <polyaffine/mesh/tet_mesh.hpp>
+#include <polyaffine/quadrature/gauss.hpp>
 
 namespace polyaffine {
 
@@ -37,8 +39,16 @@ class LagrangeBasis : public Basis {
 
   /// Gauss points exact to `degree` on straight elements, one block an element.
   WallPoints wall_points(int degree) const;
+  /// The points of a rule of its own for each element.
+  WallPoints wall_points(const std::function<TetRule(int tet)>& rule) const;
   /// Gauss points on the boundary faces with one of the labels, one block a face.
   SurfacePoints surface_points(const TetMesh& mesh, const std::vector<int>& labels, int degree) const;
+  /// Corners of a face, barycentric in its tet.
+  using FaceCorners = Eigen::Matrix<double, 4, 3>;
+  /// The points of a rule of its own for each face, in barycentric coordinates of these corners.
+  SurfacePoints surface_points(
+      const TetMesh& mesh, const std::vector<int>& labels,
+      const std::function<TriangleRule(int tet, const FaceCorners& corners)>& rule) const;
   /// Nodes on the boundary faces with one of the labels, sorted.
   std::vector<int> surface_nodes(const TetMesh& mesh, const std::vector<int>& labels) const;
 
