@@ -2,27 +2,16 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
-#include <map>
 #include <queue>
-#include <set>
 #include <sstream>
+#include <stdexcept>
+#include <utility>
 
 #include <polyaffine/core/error.hpp>
+#include <polyaffine/mesh/tet_faces.hpp>
 
 namespace polyaffine {
 namespace {
-
-// Faces opposite each vertex, outward for a positive tet.
-constexpr std::array<std::array<int, 3>, 4> kFaces{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
-
-using FaceKey = std::array<int, 3>;
-
-FaceKey face_key(int a, int b, int c) {
-  FaceKey key{a, b, c};
-  std::sort(key.begin(), key.end());
-  return key;
-}
 
 std::string describe(const Points& points, const Tets& tets, int t) {
   std::ostringstream out;
@@ -30,12 +19,6 @@ std::string describe(const Points& points, const Tets& tets, int t) {
       (points.col(tets(0, t)) + points.col(tets(1, t)) + points.col(tets(2, t)) + points.col(tets(3, t))) / 4;
   out << "tet " << t << " (counted from 0) near (" << c.x() << ", " << c.y() << ", " << c.z() << ") mm";
   return out.str();
-}
-
-double signed_volume(const Points& p, const Eigen::Vector4i& t) {
-  Mat3 edges;
-  edges << p.col(t[1]) - p.col(t[0]), p.col(t[2]) - p.col(t[0]), p.col(t[3]) - p.col(t[0]);
-  return edges.determinant() / 6;
 }
 
 void check_points(const Points& points) {
@@ -54,13 +37,7 @@ void orient(const Points& points, Tets& tets) {
         throw InputError("mesh tet " + std::to_string(t) + ": found vertex " + std::to_string(tets(k, t)) +
                          ", expected 0 to " + std::to_string(points.cols() - 1));
     volume[t] = signed_volume(points, tets.col(t));
-    double longest = 0;
-    for (int i = 0; i < 4; ++i)
-      for (int j = i + 1; j < 4; ++j)
-        longest = std::max(longest, (points.col(tets(i, t)) - points.col(tets(j, t))).norm());
-    // A tet of edge L has volume of order L³/8; below 1e-8 of L³ its shape is lost to rounding of file
-    // coordinates.
-    if (std::abs(volume[t]) <= 1e-8 * longest * longest * longest)
+    if (is_flat(points, tets.col(t)))
       throw InputError("mesh: " + describe(points, tets, static_cast<int>(t)) + " is flat: found volume " +
                        std::to_string(volume[t]) + " mm³, expected a positive volume");
     negative += volume[t] < 0;
@@ -81,6 +58,20 @@ void orient(const Points& points, Tets& tets) {
 
 }  // namespace
 
+double signed_volume(const Points& p, const Eigen::Vector4i& t) {
+  Mat3 edges;
+  edges << p.col(t[1]) - p.col(t[0]), p.col(t[2]) - p.col(t[0]), p.col(t[3]) - p.col(t[0]);
+  return edges.determinant() / 6;
+}
+
+bool is_flat(const Points& points, const Eigen::Vector4i& tet) {
+  double longest = 0;
+  for (int i = 0; i < 4; ++i)
+    for (int j = i + 1; j < 4; ++j)
+      longest = std::max(longest, (points.col(tet[i]) - points.col(tet[j])).norm());
+  return std::abs(signed_volume(points, tet)) <= 1e-8 * longest * longest * longest;
+}
+
 TetMesh::TetMesh(Points points, Tets tets, std::vector<int> region, const LabelledTriangles& surface)
     : points_(std::move(points)), tets_(std::move(tets)), regions_(std::move(region)) {
   if (tets_.cols() == 0) throw InputError("mesh: found no tetrahedra, expected at least one");
@@ -92,23 +83,24 @@ TetMesh::TetMesh(Points points, Tets tets, std::vector<int> region, const Labell
   orient(points_, tets_);
 
   neighbours_ = Eigen::Matrix4Xi::Constant(4, tets_.cols(), -1);
-  std::map<FaceKey, std::pair<int, int>> open;  // face -> (tet, local face)
-  std::set<FaceKey> closed;
-  std::vector<char> used(points_.cols(), 0);
-  for (int t = 0; t < num_tets(); ++t)
-    for (int k = 0; k < 4; ++k) {
-      used[tets_(k, t)] = 1;
-      const FaceKey key = face_key(tets_(kFaces[k][0], t), tets_(kFaces[k][1], t), tets_(kFaces[k][2], t));
-      if (closed.contains(key))
-        throw InputError("mesh: a face of " + describe(points_, tets_, t) +
-                         " is shared by more than two tets");
-      const auto [it, first] = open.try_emplace(key, t, k);
-      if (first) continue;
-      neighbours_(k, t) = it->second.first;
-      neighbours_(it->second.second, it->second.first) = t;
-      open.erase(it);
-      closed.insert(key);
+  const std::vector<TetFace> faces = sorted_faces(tets_);
+  std::vector<TetFace> open;
+  for (std::size_t f = 0; f < faces.size();) {
+    std::size_t end = f + 1;
+    while (end < faces.size() && faces[end].key == faces[f].key) ++end;
+    if (end - f > 2)
+      throw InputError("mesh: a face of " + describe(points_, tets_, faces[end - 1].tet) +
+                       " is shared by more than two tets");
+    if (end - f == 1) {
+      open.push_back(faces[f]);
+    } else {
+      neighbours_(faces[f].local, faces[f].tet) = faces[f + 1].tet;
+      neighbours_(faces[f + 1].local, faces[f + 1].tet) = faces[f].tet;
     }
+    f = end;
+  }
+  std::vector<char> used(points_.cols(), 0);
+  for (const int p : tets_.reshaped()) used[p] = 1;
   const auto unused = std::find(used.begin(), used.end(), 0);
   if (unused != used.end())
     throw InputError("mesh point " + std::to_string(unused - used.begin()) +
@@ -137,25 +129,30 @@ TetMesh::TetMesh(Points points, Tets tets, std::vector<int> region, const Labell
                      std::to_string(count) + " connected to the first, expected one connected wall");
   }
 
-  std::map<FaceKey, int> label_of;
+  boundary_.resize(3, static_cast<Eigen::Index>(open.size()));
+  boundary_labels_.assign(open.size(), kUnlabelled);
+  for (std::size_t f = 0; f < open.size(); ++f) {
+    const auto& face = kTetFaces[open[f].local];
+    for (int k = 0; k < 3; ++k) boundary_(k, static_cast<Eigen::Index>(f)) = tets_(face[k], open[f].tet);
+    boundary_tets_.push_back(open[f].tet);
+  }
   for (Eigen::Index i = 0; i < surface.triangles.cols(); ++i) {
     const FaceKey key = face_key(surface.triangles(0, i), surface.triangles(1, i), surface.triangles(2, i));
-    if (!open.contains(key))
+    const auto face = std::ranges::lower_bound(open, key, {}, &TetFace::key);
+    if (face == open.end() || face->key != key)
       throw InputError("mesh: labelled triangle " + std::to_string(i) + " (label " +
                        std::to_string(surface.labels.at(i)) +
                        ") is not a face of the boundary of the tetrahedra");
-    label_of[key] = surface.labels.at(i);
+    boundary_labels_[face - open.begin()] = surface.labels.at(i);
   }
-  boundary_.resize(3, static_cast<Eigen::Index>(open.size()));
-  int f = 0;
-  for (const auto& [key, owner] : open) {
-    const auto& face = kFaces[owner.second];
-    for (int k = 0; k < 3; ++k) boundary_(k, f) = tets_(face[k], owner.first);
-    const auto label = label_of.find(key);
-    boundary_labels_.push_back(label == label_of.end() ? kUnlabelled : label->second);
-    boundary_tets_.push_back(owner.first);
-    ++f;
-  }
+}
+
+TetMesh TetMesh::with_labels(std::vector<int> labels) const {
+  if (labels.size() != boundary_labels_.size())
+    throw std::invalid_argument("TetMesh::with_labels: expected a label for each boundary triangle");
+  TetMesh out = *this;
+  out.boundary_labels_ = std::move(labels);
+  return out;
 }
 
 double TetMesh::tet_volume(int t) const {

@@ -12,6 +12,13 @@ struct LabelledTriangles {
   std::vector<int> labels;
 };
 
+/// Volume of a tet, det[x₁−x₀, x₂−x₀, x₃−x₀]/6, mm³.
+double signed_volume(const Points& points, const Eigen::Vector4i& tet);
+
+/// No volume to speak of: at most 1e-8 L³, L the longest edge (L³/8 in a good tet); below that the shape is
+/// lost to rounding of file coordinates.
+bool is_flat(const Points& points, const Eigen::Vector4i& tet);
+
 /// An immutable tetrahedral mesh with region labels and a labelled boundary.
 ///
 /// Points are mm. Every tet is positively oriented (construction swaps two vertices of a negative one only
@@ -27,6 +34,9 @@ class TetMesh {
   /// against the others, a face is shared by more than two tets, a point is in no tet, the mesh falls into
   /// parts that share no face, or a labelled triangle is not on the boundary.
   TetMesh(Points points, Tets tets, std::vector<int> region = {}, const LabelledTriangles& surface = {});
+
+  /// The same mesh with other labels, one for each boundary triangle.
+  TetMesh with_labels(std::vector<int> labels) const;
 
   const Points& points() const { return points_; }
   const Tets& tets() const { return tets_; }
