@@ -1,0 +1,136 @@
+#include "polyaffine/vtk/read_data.hpp"
+
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkCellTypes.h>
+#include <vtkDataArray.h>
+#include <vtkDataSetReader.h>
+#include <vtkIdList.h>
+#include <vtkPointData.h>
+#include <vtkPointSet.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+#include <new>
+#include <polyaffine/core/error.hpp>
+#include <polyaffine/vtk/message_trap.hpp>
+
+namespace polyaffine {
+namespace {
+
+using std::filesystem::path;
+
+[[noreturn]] void fail(const path& file, const std::string& what) {
+  throw InputError(file.string() + ": " + what);
+}
+
+template <class Reader>
+vtkSmartPointer<vtkPointSet> load_as(const path& file, const char* format) {
+  const MessageTrap trap;
+  const auto reader = vtkSmartPointer<Reader>::New();
+  reader->SetFileName(file.c_str());
+  const auto damaged = [&](const std::string& error) {
+    fail(file, std::string("found a damaged file, expected a ") + format +
+                   (error.empty() ? "" : " (" + error + ")"));
+  };
+  try {
+    reader->Update();
+  } catch (const std::bad_alloc&) {
+    damaged("more data announced than memory holds");
+  }
+  const std::string error = trap.first_error();
+  if (!error.empty() || reader->GetErrorCode() != 0) damaged(error);
+  return vtkPointSet::SafeDownCast(reader->GetOutputDataObject(0));
+}
+
+vtkSmartPointer<vtkPointSet> load(const path& file) {
+  if (!std::filesystem::is_regular_file(file)) fail(file, "found no such file");
+  const std::string extension = file.extension().string();
+  const auto data = extension == ".vtu"   ? load_as<vtkXMLUnstructuredGridReader>(file, "VTK XML file")
+                    : extension == ".vtp" ? load_as<vtkXMLPolyDataReader>(file, "VTK XML file")
+                                          : load_as<vtkDataSetReader>(file, "legacy VTK file");
+  if (!data || data->GetNumberOfPoints() == 0 || data->GetNumberOfCells() == 0)
+    fail(file, "found no points or no cells, expected a mesh (unstructured grid or polydata)");
+  return data;
+}
+
+/// Numbers in the file of the cells of each kind.
+struct CellNumbers {
+  std::vector<vtkIdType> tets, triangles;
+};
+
+CellNumbers read_cells(vtkPointSet& grid, MeshData& data) {
+  CellNumbers numbers;
+  CellList tets{4}, triangles{3};
+  std::size_t quadratic_tets = 0;
+  vtkNew<vtkIdList> points;
+  for (vtkIdType c = 0; c < grid.GetNumberOfCells(); ++c) {
+    const int type = grid.GetCellType(c);
+    const bool tet = type == VTK_TETRA || type == VTK_QUADRATIC_TETRA;
+    const bool triangle = type == VTK_TRIANGLE || type == VTK_QUADRATIC_TRIANGLE;
+    const bool line = type == VTK_VERTEX || type == VTK_POLY_VERTEX || type == VTK_LINE ||
+                      type == VTK_POLY_LINE || type == VTK_QUADRATIC_EDGE;
+    const auto cell = "cell " + std::to_string(c) + " (counted from 0): ";
+    if (line) continue;
+    if (!tet && !triangle)
+      fail(data.source, cell + "found the type " + vtkCellTypes::GetClassNameFromTypeId(type) +
+                            ", expected vtkTetra (tetrahedron) or vtkTriangle, linear or quadratic");
+    grid.GetCellPoints(c, points);
+    if (points->GetNumberOfIds() < (tet ? 4 : 3))
+      fail(data.source, cell + "found " + std::to_string(points->GetNumberOfIds()) + " points, expected " +
+                            (tet ? "4" : "3"));
+    for (const vtkIdType p : *points)
+      if (p < 0 || p >= data.points.cols())
+        fail(data.source, cell + "found the point " + std::to_string(p) + ", expected 0 to " +
+                              std::to_string(data.points.cols() - 1));
+    (tet ? tets : triangles).add(*points);
+    (tet ? numbers.tets : numbers.triangles).push_back(c);
+    quadratic_tets += type == VTK_QUADRATIC_TETRA;
+  }
+  data.tets = tets.matrix();
+  data.triangles = triangles.matrix();
+  note_quadratic(data, quadratic_tets);
+  return numbers;
+}
+
+/// Values of the chosen tuples of every numeric array.
+std::map<std::string, Matrix> fields(vtkFieldData& arrays, const std::vector<vtkIdType>& chosen) {
+  std::map<std::string, Matrix> out;
+  for (int i = 0; i < arrays.GetNumberOfArrays(); ++i) {
+    vtkDataArray* array = arrays.GetArray(i);
+    if (array == nullptr || array->GetName() == nullptr) continue;
+    Matrix& field = out[array->GetName()];
+    field.resize(array->GetNumberOfComponents(), static_cast<Eigen::Index>(chosen.size()));
+    for (Eigen::Index c = 0; c < field.cols(); ++c) array->GetTuple(chosen[c], field.col(c).data());
+  }
+  return out;
+}
+
+}  // namespace
+
+bool is_vtk_file(const path& file) {
+  const std::string extension = file.extension().string();
+  return extension == ".vtu" || extension == ".vtk" || extension == ".vtp";
+}
+
+MeshData read_vtk_data(const path& file) {
+  const auto grid = load(file);
+  MeshData data;
+  data.source = file;
+  data.points.resize(3, grid->GetNumberOfPoints());
+  std::vector<vtkIdType> points(grid->GetNumberOfPoints());
+  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p) {
+    points[p] = p;
+    grid->GetPoint(p, data.points.col(p).data());
+  }
+  const CellNumbers cells = read_cells(*grid, data);
+  data.point_fields = fields(*grid->GetPointData(), points);
+  data.tet_fields = fields(*grid->GetCellData(), cells.tets);
+  data.triangle_fields = fields(*grid->GetCellData(), cells.triangles);
+  return data;
+}
+
+}  // namespace polyaffine
