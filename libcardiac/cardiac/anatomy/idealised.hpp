@@ -13,6 +13,7 @@ using polyaffine::Vec3;
 inline constexpr int kEndocardium = 1;
 inline constexpr int kEpicardium = 2;
 inline constexpr int kBase = 3;
+inline constexpr int kRvEndocardium = 4;
 
 /// A left ventricle between two half ellipsoids of revolution about z, centred at the origin, cut by the base
 /// plane z = base_z_mm; the apex points to −z. Semi-axes in mm.

@@ -20,7 +20,6 @@ polyaffine::SurfacePoints turned(polyaffine::SurfacePoints points) {
 Anatomy build_anatomy(polyaffine::TetMesh mesh, const Protocol& protocol, const ExactGeometry& exact) {
   Anatomy out;
   out.mesh = std::move(mesh);
-  out.labels = {protocol.mesh.endo_label, protocol.mesh.epi_label, protocol.mesh.base_label};
   AnatomyOptions options;
   if (protocol.anatomy.long_axis) options.long_axis = Vec3(protocol.anatomy.long_axis->data());
   options.anterior = Vec3(protocol.anatomy.anterior_direction.data());

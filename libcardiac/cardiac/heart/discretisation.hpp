@@ -30,7 +30,8 @@ struct ExactGeometry {
   std::function<FibreAxes(const polyaffine::Points& X)> fibres;  ///< see Anatomy
 };
 
-/// Throws InputError as the mesh, its coordinates and its segments do.
+/// The boundary of the mesh carries the labels kEndocardium, kEpicardium and kBase. Throws InputError as its
+/// coordinates and its segments do.
 Anatomy build_anatomy(polyaffine::TetMesh mesh, const Protocol& protocol, const ExactGeometry& exact = {});
 
 /// Shape functions with their integration points: a full-order or a reduced model of the same wall.

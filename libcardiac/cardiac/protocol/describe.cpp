@@ -46,6 +46,10 @@ Json type_schema(const Key& key) {
       return list_of(number_schema(key, "integer"));
     case Kind::texts:
       return list_of({{"type", "string"}});
+    case Kind::labels: {
+      const Json label = {{"anyOf", {number_schema(key, "integer"), {{"type", "string"}}}}};
+      return {{"anyOf", {label, list_of(label)}}};
+    }
     case Kind::vector:
       return vector();
     case Kind::vectors:
@@ -95,8 +99,8 @@ std::string explain_key(const Table& table, const Key& key) {
   std::string standard = value.is_null() ? "none" : value_text(value) + (value.is_number() ? unit : "");
   if (value.is_null() && !key.facts.absent.empty()) standard += ": " + key.facts.absent;
   if (key.facts.required) standard = "none: the key is required";
-  const bool number =
-      key.kind != Kind::flag && key.kind != Kind::text && key.kind != Kind::texts && key.kind != Kind::choice;
+  const bool number = key.kind != Kind::flag && key.kind != Kind::text && key.kind != Kind::texts &&
+                      key.kind != Kind::labels && key.kind != Kind::choice;
   return table.name + '.' + key.name + '\n' + line("meaning", key.facts.meaning) +
          line("expected", expectation(key)) +
          line("unit", number && key.facts.unit.empty() ? "dimensionless" : key.facts.unit) +

@@ -42,6 +42,8 @@ std::string type_text(const Key& key) {
       return "a list of whole numbers" + in_unit(key);
     case Kind::texts:
       return "a list of texts in quotes";
+    case Kind::labels:
+      return "a label (a whole number, or a name in quotes) or a list of labels";
     case Kind::vector:
       return "a vector of three numbers" + in_unit(key);
     case Kind::vectors:
@@ -116,7 +118,7 @@ std::string range_text(const Key& key) {
 }
 
 std::string expectation(const Key& key) {
-  const bool list = key.kind == Kind::numbers || key.kind == Kind::wholes;
+  const bool list = key.kind == Kind::numbers || key.kind == Kind::wholes || key.kind == Kind::labels;
   const std::string range = range_text(key);
   return type_text(key) + (range.empty() ? "" : (list ? ", each " : ", ") + range);
 }
@@ -143,6 +145,12 @@ bool acceptable(const Key& key, const Json& value) {
       return each([&](const Json& entry) { return acceptable_number(key, entry, true); });
     case Kind::texts:
       return each([](const Json& entry) { return entry.is_string(); });
+    case Kind::labels: {
+      const auto label = [&](const Json& entry) {
+        return entry.is_string() || acceptable_number(key, entry, true);
+      };
+      return value.is_array() ? !value.empty() && each(label) : label(value);
+    }
     case Kind::vector:
       return is_vector(key, value);
     case Kind::vectors:

@@ -16,7 +16,7 @@ namespace cardiac::protocol {
 
 using Json = nlohmann::json;
 
-enum class Kind { number, whole, flag, text, choice, numbers, wholes, texts, vector, vectors };
+enum class Kind { number, whole, flag, text, choice, numbers, wholes, texts, labels, vector, vectors };
 
 /// Allowed values, or entries of a list.
 struct Range {

@@ -31,6 +31,7 @@ constexpr Kind kind_of() {
   if constexpr (std::is_same_v<T, std::vector<double>>) return Kind::numbers;
   if constexpr (std::is_same_v<T, std::vector<int>>) return Kind::wholes;
   if constexpr (std::is_same_v<T, std::vector<std::string>>) return Kind::texts;
+  if constexpr (std::is_same_v<T, Labels>) return Kind::labels;
   if constexpr (std::is_same_v<T, Vector3>) return Kind::vector;
   if constexpr (std::is_same_v<T, std::vector<Vector3>>) return Kind::vectors;
 }
@@ -43,6 +44,15 @@ T from_json(const Json& value) {
     std::size_t index = 0;
     while (names.at(index) != word) ++index;
     return static_cast<T>(index);
+  } else if constexpr (std::is_same_v<T, Labels>) {
+    Labels labels;
+    for (const Json& entry : value.is_array() ? value : Json::array({value})) {
+      if (entry.is_string())
+        labels.emplace_back(entry.get<std::string>());
+      else
+        labels.emplace_back(entry.get<int>());
+    }
+    return labels;
   } else {
     return value.get<T>();
   }
@@ -52,6 +62,10 @@ template <class T>
 Json to_json(const T& value) {
   if constexpr (std::is_enum_v<T>) {
     return name_of(value);
+  } else if constexpr (std::is_same_v<T, Labels>) {
+    Json list = Json::array();
+    for (const auto& label : value) std::visit([&](const auto& entry) { list.push_back(entry); }, label);
+    return list;
   } else {
     return value;
   }

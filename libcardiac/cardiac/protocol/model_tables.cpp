@@ -7,12 +7,25 @@ Range above_zero(double high) {
   return {0, high, true};
 }
 
+KeyFacts surface_label(const std::string& surface, const std::string& number) {
+  KeyFacts facts;
+  facts.range = {0, 1e6};
+  facts.meaning =
+      "what the mesh file calls the " + surface + ": numbers of the label array, or names of physical groups";
+  facts.absent = "a name in common use (endo, ENDO_LV, rv_endo, Epicardium, base, top, …) or the number " +
+                 number + "; a mesh without known labels is recognised by its shape";
+  facts.used_with = "file";
+  return facts;
+}
+
 Table mesh_table() {
   TableBuilder table("mesh", "Geometry of the ventricle: a mesh file or an idealised shape.",
                      &Protocol::mesh);
   table
       .key("file", &Mesh::file,
-           {.meaning = "tetrahedral mesh (.vtu), path relative to the protocol file",
+           {.meaning =
+                "tetrahedral mesh (.vtu, .vtk, Gmsh .msh, openCARP .pts), path relative to the protocol "
+                "file",
             .absent = "an idealised shape is meshed"})
       .key("length_unit", &Mesh::length_unit,
            {.meaning = "length unit of the coordinates in the mesh file; required with file, never guessed",
@@ -29,14 +42,20 @@ Table mesh_table() {
             .meaning = "target edge length of the tetrahedra of an idealised shape",
             .absent = "the shape's own size",
             .used_with = "shape"})
+      .key("surface_file", &Mesh::surface_file,
+           {.meaning =
+                "second file with the labelled surface triangles (.vtu, .vtp, .vtk), in the unit of the "
+                "mesh, path relative to the protocol file",
+            .absent = "the triangles of the mesh file",
+            .used_with = "file"})
       .key("label_array", &Mesh::label_array,
-           {.meaning = "array of the mesh file that holds the surface labels", .used_with = "file"})
-      .key("endo_label", &Mesh::endo_label,
-           {.range = {0, 1e6}, .meaning = "label of the endocardium (cavity side)", .used_with = "file"})
-      .key("epi_label", &Mesh::epi_label,
-           {.range = {0, 1e6}, .meaning = "label of the epicardium (outer side)", .used_with = "file"})
-      .key("base_label", &Mesh::base_label,
-           {.range = {0, 1e6}, .meaning = "label of the base (valve plane)", .used_with = "file"});
+           {.meaning = "cell array that holds the surface labels",
+            .absent = "the first of the usual names: surface, label, tag, physical (Gmsh), …",
+            .used_with = "file"})
+      .key("endo_label", &Mesh::endo_label, surface_label("endocardium (of the left ventricle)", "1"))
+      .key("epi_label", &Mesh::epi_label, surface_label("epicardium (outer side)", "2"))
+      .key("base_label", &Mesh::base_label, surface_label("base (valve plane)", "3"))
+      .key("rv_endo_label", &Mesh::rv_endo_label, surface_label("endocardium of the right ventricle", "4"));
   return table.build_required();
 }
 

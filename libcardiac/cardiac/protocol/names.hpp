@@ -15,8 +15,8 @@ using Names = std::array<std::string_view, count>;
 constexpr Names<2> names_of(Shape) {
   return {"human_lv", "land_ellipsoid"};
 }
-constexpr Names<3> names_of(LengthUnit) {
-  return {"mm", "cm", "m"};
+constexpr Names<4> names_of(LengthUnit) {
+  return {"mm", "cm", "m", "um"};
 }
 constexpr Names<1> names_of(Scheme) {
   return {"aha17"};

@@ -121,10 +121,19 @@ std::filesystem::path mesh_path(const Protocol& protocol) {
   return (protocol.directory / protocol.mesh.file.value()).lexically_normal();
 }
 
+std::filesystem::path surface_path(const Protocol& protocol) {
+  return (protocol.directory / protocol.mesh.surface_file.value()).lexically_normal();
+}
+
 void check_mesh_file(const Protocol& protocol) {
   if (protocol.mesh.file && !std::filesystem::is_regular_file(mesh_path(protocol))) {
     throw InputError("mesh.file: no such file " + mesh_path(protocol).string() +
-                     "; expected a tetrahedral mesh (.vtu), its path relative to the protocol file");
+                     "; expected a tetrahedral mesh, its path relative to the protocol file");
+  }
+  if (protocol.mesh.file && protocol.mesh.surface_file &&
+      !std::filesystem::is_regular_file(surface_path(protocol))) {
+    throw InputError("mesh.surface_file: no such file " + surface_path(protocol).string() +
+                     "; expected labelled triangles, its path relative to the protocol file");
   }
 }
 

@@ -33,7 +33,10 @@ struct Protocol {
 /// Path of the mesh file; only with a mesh.file.
 std::filesystem::path mesh_path(const Protocol& protocol);
 
-/// Throws polyaffine::InputError when the mesh.file of the protocol does not exist.
+/// Path of the second file with labelled triangles; only with a mesh.surface_file.
+std::filesystem::path surface_path(const Protocol& protocol);
+
+/// Throws polyaffine::InputError when the mesh.file or mesh.surface_file of the protocol does not exist.
 void check_mesh_file(const Protocol& protocol);
 
 /// Reads a protocol file (.toml). `overrides` are texts `key.path=value`, the value in TOML (a bare word is

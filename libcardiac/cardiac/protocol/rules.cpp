@@ -25,17 +25,23 @@ void check_mesh(const Mesh& mesh, const Place& place) {
   }
   if (mesh.shape) return;
   const std::string extension = std::filesystem::path(*mesh.file).extension().string();
-  if (extension != ".vtu") {
+  if (!std::set<std::string>{".vtu", ".vtk", ".msh", ".pts", ".elem", ".lon"}.contains(extension)) {
     fail(place, "mesh.file",
-         "found \"" + *mesh.file + "\", expected a tetrahedral mesh with the extension .vtu");
+         "found \"" + *mesh.file +
+             "\", expected a tetrahedral mesh (.vtu, .vtk, .msh or .pts); `cardiac mesh import` makes one of "
+             "a "
+             "closed surface");
   }
   if (!mesh.length_unit) {
     fail(place, "mesh.length_unit",
          "missing; expected the length unit of " + *mesh.file + ": one of \"mm\", \"cm\", \"m\"");
   }
-  if (std::set{mesh.endo_label, mesh.epi_label, mesh.base_label}.size() < 3) {
-    fail(place, "mesh.endo_label", "endo_label, epi_label and base_label must differ");
-  }
+  std::set<std::variant<int, std::string>> seen;
+  for (const auto& labels : {mesh.endo_label, mesh.epi_label, mesh.base_label, mesh.rv_endo_label})
+    for (const auto& label : labels.value_or(Labels{}))
+      if (!seen.insert(label).second) {
+        fail(place, "mesh.endo_label", "endo_label, epi_label, base_label and rv_endo_label must differ");
+      }
 }
 
 double norm(const Vector3& v) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 /// The tables of a protocol. The initial values are the defaults of the protocol file; meaning, range and
@@ -10,16 +11,17 @@
 namespace cardiac::protocol {
 
 using Vector3 = std::array<double, 3>;
+using Labels = std::vector<std::variant<int, std::string>>;  ///< numbers or names of surfaces
 
 enum class Shape { human_lv, land_ellipsoid };
-enum class LengthUnit { mm, cm, m };
+enum class LengthUnit { mm, cm, m, um };
 struct Mesh {
   std::optional<std::string> file;  ///< either file (with its length_unit) or shape
   std::optional<Shape> shape;
   std::optional<double> size_mm;  ///< edge length of a generated mesh; absent: the shape's own
   std::optional<LengthUnit> length_unit;
-  std::string label_array = "surface";
-  int endo_label = 1, epi_label = 2, base_label = 3;
+  std::optional<std::string> surface_file, label_array;
+  std::optional<Labels> endo_label, epi_label, base_label, rv_endo_label;
 };
 
 enum class Scheme { aha17 };

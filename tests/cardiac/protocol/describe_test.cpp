@@ -54,6 +54,8 @@ json other_value(const cardiac::protocol::Key& key, const json& standard) {
       return json::array({3, 4});
     case Kind::texts:
       return json::array({"lt"});
+    case Kind::labels:
+      return json::array({7, "outer"});
     case Kind::vector:
       return json::array({1.5, 2.5, 3.5});
     case Kind::vectors:
@@ -139,6 +141,7 @@ TEST(Schema, RangesAreThoseOfTheParser) {
   for (const auto& [name, table] : schema.at("properties").items()) {
     const json object = object_schema(table);
     for (const auto& [key, property] : object.at("properties").items()) {
+      if (!property.contains("type")) continue;  // labels: a number or a name
       if (property.at("type") != "number" && property.at("type") != "integer") continue;
       const std::string head = (name == "region" ? "[[region]]\n" : '[' + name + "]\n") + key + " = ";
       const auto literal = [&](double value) {

@@ -13,7 +13,7 @@ namespace {
 
 TEST(Parse, ReadsValuesOfEveryType) {
   const auto protocol = parsed(
-      "[mesh]\nfile = \"../heart.vtu\"\nlength_unit = \"cm\"\nendo_label = 7\n"
+      "[mesh]\nfile = \"../heart.vtu\"\nlength_unit = \"cm\"\nendo_label = 7\nepi_label = [8, \"outer\"]\n"
       "[anatomy]\nanterior_direction = [1, 0, 0.5]\n"
       "[reduction]\npressure_space = \"segment_linear\"\nenrichment = [\"tt\", \"lt\"]\nring_positions = "
       "[0.2, 0.5]\nring_nodes = [3, 8]\nring_angles_deg = [0, 22.5]\n"
@@ -22,7 +22,9 @@ TEST(Parse, ReadsValuesOfEveryType) {
   EXPECT_EQ(protocol.mesh.file, "../heart.vtu");
   EXPECT_EQ(cardiac::mesh_path(protocol), "heart.vtu");  // beside the folder of the protocol
   EXPECT_EQ(protocol.mesh.length_unit, cardiac::protocol::LengthUnit::cm);
-  EXPECT_EQ(protocol.mesh.endo_label, 7);
+  EXPECT_EQ(protocol.mesh.endo_label, (cardiac::protocol::Labels{7}));
+  EXPECT_EQ(protocol.mesh.epi_label, (cardiac::protocol::Labels{8, "outer"}));
+  EXPECT_FALSE(protocol.mesh.base_label);
   EXPECT_EQ(protocol.anatomy.anterior_direction, (cardiac::protocol::Vector3{1, 0, 0.5}));
   EXPECT_EQ(protocol.reduction.pressure_space, cardiac::protocol::PressureSpace::segment_linear);
   EXPECT_EQ(protocol.reduction.enrichment, (std::vector<std::string>{"tt", "lt"}));

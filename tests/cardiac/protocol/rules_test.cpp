@@ -13,7 +13,8 @@ TEST(Rules, MeshIsEitherFileOrShape) {
       "[cavities]\npressure_mmHg = 1\n[tissue]\nlaw = \"neo_hookean\"\n[mesh]\nlength_unit = \"mm\"\n";
   EXPECT_THAT(refusal(file + "file = \"heart.obj\"\n"),
               AllOf(HasSubstr("heart.toml:7: mesh.file"), HasSubstr("heart.obj"), HasSubstr(".vtu")));
-  EXPECT_THAT(refusal(file + "file = \"heart.vtu\"\nepi_label = 1\n"), HasSubstr("must differ"));
+  EXPECT_THAT(refusal(file + "file = \"heart.vtu\"\nendo_label = [7, 1]\nepi_label = 1\n"),
+              HasSubstr("must differ"));
   EXPECT_NO_THROW(parsed(file + "file = \"heart.vtu\"\n"));
 }
 

@@ -1,0 +1,236 @@
+#include "cardiac/anatomy/recognise_surfaces.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <queue>
+#include <sstream>
+#include <tuple>
+
+#include <cardiac/anatomy/idealised.hpp>
+#include <cardiac/core/units.hpp>
+#include <polyaffine/core/error.hpp>
+#include <polyaffine/geometry/triangle_tree.hpp>
+#include <polyaffine/mesh/surface.hpp>
+#include <polyaffine/mesh/triangle_adjacency.hpp>
+
+namespace cardiac {
+namespace {
+
+using polyaffine::InputError;
+using polyaffine::Mat3;
+using polyaffine::TetMesh;
+using polyaffine::Triangles;
+using polyaffine::Vector;
+
+constexpr int kUnknown = -1, kOutside = 0, kInside = 1;  // of a triangle while it is being found
+constexpr int kRays = 48, kMostProbes = 20000;
+constexpr double kEnclosed = 0.6, kFree = 0.2;       // share of rays that meet the wall again
+constexpr double kFacesUp = 0.6, kFacesAside = 0.3;  // cosine between normal and direction of the opening
+constexpr double kPocket = 0.05;                     // of the largest cavity's area: too small for a cavity
+
+struct Surface {
+  Points centre, normal;  ///< 3 × triangles, normals of unit length
+  Vector area;
+  Triangles across;
+};
+
+Surface describe(const TetMesh& mesh) {
+  Surface s;
+  const Eigen::Index n = mesh.boundary().cols();
+  s.centre.resize(3, n);
+  s.normal.resize(3, n);
+  s.area = polyaffine::triangle_areas(mesh.points(), mesh.boundary());
+  for (Eigen::Index f = 0; f < n; ++f) {
+    const Mat3 x = mesh.points()(Eigen::all, mesh.boundary().col(f));
+    s.centre.col(f) = x.rowwise().mean();
+    s.normal.col(f) = (x.col(1) - x.col(0)).cross(x.col(2) - x.col(0)).normalized();
+  }
+  s.across = polyaffine::triangle_adjacency(mesh.boundary()).across;
+  return s;
+}
+
+/// Share of the rays from a triangle that meet the wall again: the cosine-weighted directions are points of a
+/// sunflower on the unit disc, raised to the hemisphere.
+double enclosure(const polyaffine::TriangleTree& tree, const Vec3& from, const Vec3& normal, double edge) {
+  const Vec3 x = normal.unitOrthogonal(), y = normal.cross(x);
+  const double golden = polyaffine::kPi * (3 - std::sqrt(5.0));
+  int hits = 0;
+  for (int i = 0; i < kRays; ++i) {
+    const double r2 = (i + 0.5) / kRays, r = std::sqrt(r2), phi = golden * i;
+    const Vec3 direction = r * (std::cos(phi) * x + std::sin(phi) * y) + std::sqrt(1 - r2) * normal;
+    hits += tree.hit(from, direction, 1e-6 * edge);
+  }
+  return static_cast<double>(hits) / kRays;
+}
+
+/// Grows the seeds (labels other than kUnknown) over all triangles, flat edges first.
+std::vector<int> watershed(const Surface& s, std::vector<int> label) {
+  using Step = std::tuple<double, int, int, int>;  // sharpness, order of arrival, triangle, label
+  std::priority_queue<Step, std::vector<Step>, std::greater<>> front;
+  int arrival = 0;
+  const auto spread = [&](int f) {
+    for (int k = 0; k < 3; ++k)
+      if (const int n = s.across(k, f); n >= 0 && label[n] == kUnknown)
+        front.emplace(1 - s.normal.col(f).dot(s.normal.col(n)), arrival++, n, label[f]);
+  };
+  const auto size = static_cast<int>(label.size());
+  for (int f = 0; f < size; ++f)
+    if (label[f] != kUnknown) spread(f);
+  while (!front.empty()) {
+    const auto [sharpness, order, f, grown] = front.top();
+    front.pop();
+    if (label[f] != kUnknown) continue;
+    label[f] = grown;
+    spread(f);
+  }
+  return label;
+}
+
+std::vector<int> inside_or_outside(const TetMesh& mesh, const Surface& s) {
+  const polyaffine::TriangleTree tree(mesh.points(), mesh.boundary());
+  const auto size = static_cast<int>(s.area.size());
+  const int step = 1 + size / kMostProbes;
+  std::vector<int> seeds(size, kUnknown);
+  for (int f = 0; f < size; f += step) {
+    const double share = enclosure(tree, s.centre.col(f), s.normal.col(f), std::sqrt(s.area[f]));
+    if (share > kEnclosed) seeds[f] = kInside;
+    if (share < kFree) seeds[f] = kOutside;
+  }
+  std::vector<int> label = watershed(s, std::move(seeds));
+  // A triangle that two of another kind surround belongs to them: borders without teeth.
+  for (int pass = 0; pass < 3; ++pass)
+    for (int f = 0; f < size; ++f) {
+      int others = 0;
+      for (int k = 0; k < 3; ++k) others += label[s.across(k, f)] != label[f];
+      if (others >= 2) label[f] = 1 - label[f];
+    }
+  return label;
+}
+
+double area_of(const Surface& s, const std::vector<int>& faces) {
+  double sum = 0;
+  for (const int f : faces) sum += s.area[f];
+  return sum;
+}
+
+/// The triangles of each cavity.
+std::vector<std::vector<int>> cavities(const Surface& s, const std::vector<int>& label, int wanted) {
+  const auto part =
+      polyaffine::connected_parts(s.across, [&](int f, int k) { return label[f] == label[s.across(k, f)]; });
+  std::map<int, std::vector<int>> parts;
+  for (std::size_t f = 0; f < part.size(); ++f)
+    if (label[f] == wanted) parts[part[f]].push_back(static_cast<int>(f));
+  double largest = 0;
+  for (const auto& [p, faces] : parts) largest = std::max(largest, area_of(s, faces));
+  std::vector<std::vector<int>> out;
+  for (const auto& [p, faces] : parts)
+    if (area_of(s, faces) >= kPocket * largest) out.push_back(faces);
+  return out;
+}
+
+/// V / A^1.5 of a cavity: 0.09 for a sphere, less for a crescent.
+double roundness(const TetMesh& mesh, const Surface& s, const std::vector<int>& faces) {
+  const polyaffine::EnclosedVolume cavity(Triangles(mesh.boundary()(Eigen::all, faces)));
+  return cavity.value(mesh.points()) / std::pow(area_of(s, faces), 1.5);
+}
+
+/// The left ventricle's cavity first.
+void order_cavities(const TetMesh& mesh, const Surface& s, std::vector<std::vector<int>>& found,
+                    std::vector<std::string>& notes) {
+  if (found.size() != 2) return;
+  double left = roundness(mesh, s, found[0]), right = roundness(mesh, s, found[1]);
+  if (left < right) {
+    std::swap(found[0], found[1]);
+    std::swap(left, right);
+  }
+  std::ostringstream text;
+  text.precision(2);
+  text << "two cavities: the left ventricle's is the rounder one (V/A^1.5 " << left << " against " << right
+       << ")";
+  notes.push_back(text.str());
+}
+
+/// Base or epicardium for all triangles outside.
+std::vector<int> divide_outside(const Surface& s, const std::vector<std::vector<int>>& found,
+                                const std::vector<int>& inside) {
+  const auto size = static_cast<int>(inside.size());
+  std::vector<int> label(size, kUnknown);
+  Vector most_up = Vector::Constant(size, -1);
+  for (const auto& faces : found) {
+    const Vec3 up = (s.normal(Eigen::all, faces) * s.area(faces)).normalized();
+    const Vector facing = s.normal.transpose() * up;
+    most_up = most_up.cwiseMax(facing);
+    std::vector<int> front = faces;
+    while (!front.empty()) {
+      const int f = front.back();
+      front.pop_back();
+      for (int k = 0; k < 3; ++k) {
+        const int n = s.across(k, f);
+        if (n < 0 || inside[n] == kInside || label[n] == kBase || facing[n] < kFacesUp) continue;
+        label[n] = kBase;
+        front.push_back(n);
+      }
+    }
+  }
+  if (std::ranges::count(label, kBase) == 0) return label;
+  for (int f = 0; f < size; ++f)
+    if (label[f] == kUnknown && inside[f] == kOutside && most_up[f] < kFacesAside) label[f] = kEpicardium;
+  Surface outside = s;
+  for (int f = 0; f < size; ++f)
+    for (int k = 0; k < 3; ++k)
+      if (inside[f] == kInside || inside[s.across(k, f)] == kInside) outside.across(k, f) = -1;
+  label = watershed(outside, std::move(label));
+  // The base reaches every rim.
+  for (int f = 0; f < size; ++f)
+    for (int k = 0; k < 3; ++k)
+      if (inside[f] == kOutside && inside[s.across(k, f)] == kInside) label[f] = kBase;
+  return label;
+}
+
+[[noreturn]] void fail(const std::string& found, const std::string& expected) {
+  throw InputError("mesh: the surfaces have no labels and could not be recognised from the shape: found " +
+                   found + ", expected " + expected +
+                   "; give labels in the file or a second file with labelled triangles");
+}
+
+}  // namespace
+
+RecognisedSurfaces recognise_surfaces(const TetMesh& mesh) {
+  const Surface s = describe(mesh);
+  RecognisedSurfaces out;
+  const std::vector<int> first = inside_or_outside(mesh, s);
+  auto found = cavities(s, first, kInside);
+  if (found.empty())
+    fail("no cavity (nothing that the wall surrounds)", "one or two ventricles open at the base");
+  if (found.size() > 2) fail(std::to_string(found.size()) + " cavities", "one or two ventricles");
+  std::vector<int> inside(first.size(), kOutside);
+  for (const auto& faces : found)
+    for (const int f : faces) inside[f] = kInside;
+  if (std::ranges::count(inside, kOutside) == 0) fail("only a cavity", "a wall with an outside");
+  order_cavities(mesh, s, found, out.notes);
+  out.labels = divide_outside(s, found, inside);
+  if (std::ranges::count(out.labels, kBase) == 0)
+    fail("a closed cavity without a rim that faces its opening", "a base around an opening");
+  for (std::size_t c = 0; c < found.size(); ++c)
+    for (const int f : found[c]) out.labels[f] = c == 0 ? kEndocardium : kRvEndocardium;
+  for (int& label : out.labels)
+    if (label == kUnknown) label = kEpicardium;
+  out.notes.insert(
+      out.notes.begin(),
+      "surfaces recognised from the shape (enclosed by the wall: endocardium; facing the opening from "
+      "its rim: base; rest: epicardium)");
+  return out;
+}
+
+void split_cavities(const TetMesh& mesh, std::vector<int>& labels, std::vector<std::string>& notes) {
+  if (std::ranges::count(labels, kRvEndocardium) > 0) return;
+  const Surface s = describe(mesh);
+  auto found = cavities(s, labels, kEndocardium);
+  if (found.size() != 2) return;
+  order_cavities(mesh, s, found, notes);
+  for (const int f : found[1]) labels[f] = kRvEndocardium;
+}
+
+}  // namespace cardiac
