@@ -60,7 +60,10 @@ SceneResult beat(const BenchOptions& options) {
   context.anatomy = [&](const Protocol& protocol) {
     if (options.quick) return build_anatomy(structured_ellipsoid(human_lv(), {6, 12, 1}).mesh, protocol);
     check_mesh_file(protocol);
-    return load_anatomy(protocol);
+    std::vector<std::string> warnings;
+    Anatomy anatomy = load_anatomy(protocol, warnings);
+    for (const std::string& text : warnings) std::cerr << "cardiac: warning: " << text << '\n';
+    return anatomy;
   };
   context.settings = options.settings;
   ProgressLine line(options.quiet);

@@ -5,26 +5,28 @@
 #include <polyaffine/core/error.hpp>
 
 #include "ellipsoid_mesh.hpp"
-
-#ifdef CARDIAC_WITH_VTK
-#include <polyaffine/vtk/read.hpp>
-#endif
+#include "read_heart.hpp"
 
 namespace cardiac::app {
 namespace {
 
-polyaffine::TetMesh read(const Protocol& protocol) {
-#ifdef CARDIAC_WITH_VTK
-  double mm_per_unit = 1;
-  if (protocol.mesh.length_unit == protocol::LengthUnit::cm) mm_per_unit = 10;
-  if (protocol.mesh.length_unit == protocol::LengthUnit::m) mm_per_unit = 1000;
-  polyaffine::ReadOptions options;
-  options.label_array = protocol.mesh.label_array;
-  return polyaffine::read_vtu(mesh_path(protocol), mm_per_unit, options);
-#else
-  throw polyaffine::InputError("mesh.file: found " + mesh_path(protocol).string() +
-                               ", but this build reads no .vtu files (VTK is off); use mesh.shape");
-#endif
+HeartMeshOptions options_of(const protocol::Mesh& mesh) {
+  HeartMeshOptions options;
+  options.mm_per_unit = mm_per_unit(*mesh.length_unit);
+  options.label_array = mesh.label_array.value_or("");
+  options.labels = {mesh.endo_label.value_or(protocol::Labels{}), mesh.epi_label.value_or(protocol::Labels{}),
+                    mesh.base_label.value_or(protocol::Labels{}),
+                    mesh.rv_endo_label.value_or(protocol::Labels{})};
+  return options;
+}
+
+polyaffine::TetMesh read(const Protocol& protocol, std::vector<std::string>& warnings) {
+  HeartMesh heart = read_heart(
+      mesh_path(protocol), protocol.mesh.surface_file ? surface_path(protocol) : std::filesystem::path(),
+      options_of(protocol.mesh));
+  for (const auto& list : {heart.warnings, heart.file.notes})
+    for (const std::string& text : list) warnings.push_back(mesh_path(protocol).string() + ": " + text);
+  return std::move(heart.file.mesh);
 }
 
 polyaffine::TetMesh generate(const Protocol& protocol) {
@@ -35,9 +37,9 @@ polyaffine::TetMesh generate(const Protocol& protocol) {
 
 }  // namespace
 
-Anatomy load_anatomy(const Protocol& protocol) {
+Anatomy load_anatomy(const Protocol& protocol, std::vector<std::string>& warnings) {
   if (protocol.mesh.shape) return build_anatomy(generate(protocol), protocol);
-  polyaffine::TetMesh mesh = read(protocol);
+  polyaffine::TetMesh mesh = read(protocol, warnings);
   try {
     return build_anatomy(std::move(mesh), protocol);
   } catch (const polyaffine::InputError& error) {

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "ellipsoid_mesh.hpp"
+#include "import_command.hpp"
 #include "output_file.hpp"
 
 #ifdef CARDIAC_WITH_VTK
@@ -98,6 +99,7 @@ void add_mesh_command(CLI::App& app) {
   ellipsoid->add_option("--base-z", options->base_z_mm, "height of the base plane above the centre, mm");
   ellipsoid->add_option("--out", options->out, "file to write, .vtu, lengths in mm")->required();
   ellipsoid->callback([options] { run_ellipsoid(*options); });
+  add_import_command(*mesh);
 }
 
 }  // namespace cardiac::app

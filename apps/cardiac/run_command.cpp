@@ -167,11 +167,11 @@ HeartPath solve(const Ventricle& ventricle, const Protocol& protocol, const RunO
 void run(RunOptions options) {
   const auto start = std::chrono::steady_clock::now();
   if (!options.method.empty()) options.overrides.push_back("reduction.method=" + options.method);
-  const Protocol protocol = load_protocol(options.protocol, options.overrides);
+  Protocol protocol = load_protocol(options.protocol, options.overrides);
   check_mesh_file(protocol);
-  if (!options.quiet) print_warnings(protocol.warnings);
   const std::vector<PlanItem> items = plan(protocol, options.verify);
-  const auto anatomy = std::make_shared<const Anatomy>(load_anatomy(protocol));
+  const auto anatomy = std::make_shared<const Anatomy>(load_anatomy(protocol, protocol.warnings));
+  if (!options.quiet) print_warnings(protocol.warnings);
   if (options.dry_run) return print_plan(items);
   const std::filesystem::path out =
       options.out.empty() ? std::filesystem::path("results") / std::filesystem::path(options.protocol).stem()

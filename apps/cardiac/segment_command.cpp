@@ -5,6 +5,7 @@
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@
 
 #include "load_mesh.hpp"
 #include "output_file.hpp"
+#include "read_heart.hpp"
 
 #ifdef CARDIAC_WITH_VTK
 #include <polyaffine/vtk/write.hpp>
@@ -31,18 +33,15 @@ using polyaffine::TetMesh;
 
 struct SegmentOptions {
   std::filesystem::path mesh, out;
-  std::string scheme, length_unit, label_array = "surface";
-  SurfaceLabels labels;
+  std::string scheme, length_unit, surface_file, label_array;
+  std::vector<std::string> endo, epi, base, rv_endo;
   std::vector<double> anterior{0, 1, 0}, long_axis;
   HelixAngles angles;
 };
 
-protocol::LengthUnit length_unit(const std::string& word) {
-  if (word == "mm") return protocol::LengthUnit::mm;
-  if (word == "cm") return protocol::LengthUnit::cm;
-  if (word == "m") return protocol::LengthUnit::m;
-  throw InputError("--length-unit: found \"" + word +
-                   "\", expected the length unit of the mesh: mm, cm or m");
+std::optional<protocol::Labels> labels(const std::vector<std::string>& words) {
+  if (words.empty()) return std::nullopt;
+  return surface_labels(words);
 }
 
 protocol::Vector3 direction(const char* option, const std::vector<double>& v) {
@@ -66,10 +65,12 @@ Protocol as_protocol(const SegmentOptions& o) {
   Protocol protocol;
   protocol.mesh.file = o.mesh.string();
   protocol.mesh.length_unit = length_unit(o.length_unit);
-  protocol.mesh.label_array = o.label_array;
-  protocol.mesh.endo_label = o.labels.endo;
-  protocol.mesh.epi_label = o.labels.epi;
-  protocol.mesh.base_label = o.labels.base;
+  if (!o.surface_file.empty()) protocol.mesh.surface_file = o.surface_file;
+  if (!o.label_array.empty()) protocol.mesh.label_array = o.label_array;
+  protocol.mesh.endo_label = labels(o.endo);
+  protocol.mesh.epi_label = labels(o.epi);
+  protocol.mesh.base_label = labels(o.base);
+  protocol.mesh.rv_endo_label = labels(o.rv_endo);
   protocol.anatomy.anterior_direction = direction("--anterior", o.anterior);
   if (!o.long_axis.empty()) protocol.anatomy.long_axis = direction("--long-axis", o.long_axis);
   return protocol;
@@ -139,7 +140,9 @@ void print_segments(const Anatomy& anatomy, const std::vector<ControlNode>& node
 void segment(const SegmentOptions& o) {
   check_scheme(o.scheme);
   check_output_file(o.out, ".vtu");
-  const Anatomy anatomy = load_anatomy(as_protocol(o));
+  std::vector<std::string> warnings;
+  const Anatomy anatomy = load_anatomy(as_protocol(o), warnings);
+  for (const std::string& text : warnings) std::cerr << "cardiac: warning: " << text << '\n';
   const auto nodes =
       control_nodes(anatomy.mesh, *anatomy.coordinates, frame_layout(anatomy.mesh, *anatomy.coordinates));
   write_fields(o, anatomy, nodes);
@@ -153,15 +156,17 @@ void add_segment_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "segment", "Divide a ventricle mesh: coordinates, AHA segments, control nodes and fibres as fields");
   const auto o = std::make_shared<SegmentOptions>();
-  command->add_option("MESH", o->mesh, "tetrahedral mesh with labelled surfaces (.vtu)")->required();
+  command->add_option("MESH", o->mesh, "tetrahedral mesh (.vtu, .vtk, .msh, .pts)")->required();
   command->add_option("--scheme", o->scheme, "aha17 (left ventricle)")->required();
-  command->add_option("--length-unit", o->length_unit, "length unit of the mesh: mm, cm or m")->required();
+  command->add_option("--length-unit", o->length_unit, "length unit of the mesh: mm, cm, m or um")->required();
   command->add_option("--out", o->out, "file to write, .vtu, lengths in mm")->required();
-  command->add_option("--label-array", o->label_array, "cell array of the surface labels")
-      ->capture_default_str();
-  command->add_option("--endo-label", o->labels.endo, "label of the endocardium")->capture_default_str();
-  command->add_option("--epi-label", o->labels.epi, "label of the epicardium")->capture_default_str();
-  command->add_option("--base-label", o->labels.base, "label of the base")->capture_default_str();
+  command->add_option("--surface-file", o->surface_file, "second file with the labelled triangles");
+  command->add_option("--label-array", o->label_array,
+                      "cell array of the surface labels (default: surface, label, tag, physical, …)");
+  command->add_option("--endo-label", o->endo, "number or name of the endocardium (left ventricle)");
+  command->add_option("--epi-label", o->epi, "number or name of the epicardium");
+  command->add_option("--base-label", o->base, "number or name of the base");
+  command->add_option("--rv-endo-label", o->rv_endo, "number or name of the right endocardium");
   command->add_option("--anterior", o->anterior, "direction from the long axis to the anterior wall")
       ->expected(3)
       ->capture_default_str();

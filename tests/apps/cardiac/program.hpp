@@ -2,12 +2,13 @@
 
 #include <sys/wait.h>
 
-#include <unistd.h>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
+
+#include "support/temporary_folder.hpp"
 
 struct ProgramRun {
   int status = -1;
@@ -19,21 +20,6 @@ inline std::string whole_file(const std::filesystem::path& file) {
   text << std::ifstream(file).rdbuf();
   return text.str();
 }
-
-/// A folder of its own for one test, removed at its end.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "cardiac_test_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) std::abort();
-    path = name;
-  }
-  ~TemporaryFolder() { std::filesystem::remove_all(path); }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  std::filesystem::path path;
-};
 
 /// Runs the program as a child; the arguments as a shell reads them.
 inline ProgramRun run_program(const std::string& arguments) {

@@ -127,7 +127,7 @@ TEST_F(SegmentCommand, WrongInputIsStatusTwoAndTouchesNothing) {
       {"--scheme aha29 --length-unit mm", "two ventricles"},
       {"--scheme aha16 --length-unit mm", "expected aha17"},
       {"--scheme aha17", "--length-unit"},
-      {"--scheme aha17 --length-unit inch", "expected the length unit of the mesh: mm, cm or m"},
+      {"--scheme aha17 --length-unit inch", "expected the length unit of the mesh: mm, cm, m or um"},
       {"--length-unit mm", "--scheme"},
       {sound + " --endo-label 9", "label 9"},
       {sound + " --label-array faces", "\"faces\""},

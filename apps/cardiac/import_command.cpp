@@ -1,0 +1,122 @@
+#include "import_command.hpp"
+
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include <cardiac/anatomy/idealised.hpp>
+#include <cardiac/core/units.hpp>
+#include <polyaffine/core/error.hpp>
+#include <polyaffine/mesh/quality.hpp>
+#include <polyaffine/mesh/surface.hpp>
+
+#include "output_file.hpp"
+#include "read_heart.hpp"
+#include "surface_mesh.hpp"
+
+#ifdef CARDIAC_WITH_VTK
+#include <polyaffine/vtk/write.hpp>
+#endif
+
+namespace cardiac::app {
+namespace {
+
+using polyaffine::InputError;
+using polyaffine::TetMesh;
+
+struct ImportOptions {
+  std::filesystem::path file, surface_file, out;
+  std::string length_unit, label_array;
+  std::vector<std::string> endo, epi, base, rv_endo;
+  std::optional<double> size_mm;
+  bool all_fields = false;
+};
+
+double cavity_mL(const TetMesh& mesh, int label) {
+  return polyaffine::EnclosedVolume(mesh, {label}).value(mesh.points()) / mm3_per_mL;
+}
+
+void print_report(const TetMesh& mesh) {
+  const bool right = mesh.surface({kRvEndocardium}).cols() > 0;
+  const auto quality = polyaffine::mesh_quality(mesh);
+  std::cout << "tets                 " << mesh.num_tets() << "\nvertices             " << mesh.num_points()
+            << "\nboundary triangles   " << mesh.boundary().cols() << " (endocardium "
+            << mesh.surface({kEndocardium}).cols() << ", epicardium " << mesh.surface({kEpicardium}).cols()
+            << ", base " << mesh.surface({kBase}).cols();
+  if (right) std::cout << ", right endocardium " << mesh.surface({kRvEndocardium}).cols();
+  if (const auto bare = mesh.surface({TetMesh::kUnlabelled}).cols(); bare > 0)
+    std::cout << ", unlabelled " << bare;
+  std::cout << ")\ncavity_volume_mL     " << (right ? "lv " : "") << cavity_mL(mesh, kEndocardium);
+  if (right) std::cout << ", rv " << cavity_mL(mesh, kRvEndocardium);
+  std::cout << "\nwall_volume_mL       " << mesh.volume() / mm3_per_mL << "\nedge_length_mm       "
+            << quality.min_edge_mm << " to " << quality.max_edge_mm << ", mean " << quality.mean_edge_mm
+            << "\ndihedral_angle_deg   " << quality.min_dihedral_deg << " to " << quality.max_dihedral_deg
+            << '\n';
+}
+
+HeartMesh read(const ImportOptions& o) {
+  HeartMeshOptions options;
+  options.mm_per_unit = mm_per_unit(length_unit(o.length_unit));
+  options.label_array = o.label_array;
+  options.labels = {surface_labels(o.endo), surface_labels(o.epi), surface_labels(o.base),
+                    surface_labels(o.rv_endo)};
+  options.all_fields = o.all_fields;
+  if (is_surface_file(o.file)) {
+    if (!o.surface_file.empty())
+      throw InputError("--surface-file: given beside the closed surface " + o.file.string() +
+                       ", expected beside a mesh of tetrahedra");
+    return fill_surface(o.file, options, o.size_mm);
+  }
+  if (o.size_mm)
+    throw InputError("--size: given for the tetrahedra of " + o.file.string() +
+                     ", expected only with a closed surface");
+  return read_heart(o.file, o.surface_file, options);
+}
+
+void write(const ImportOptions& o, const HeartMesh& heart) {
+#ifdef CARDIAC_WITH_VTK
+  polyaffine::write_vtu(o.out, heart.file.mesh,
+                        {.point_fields = heart.file.point_fields, .cell_fields = heart.file.cell_fields});
+#else
+  throw InputError(o.out.string() + ": this build writes no VTK files (CMake option POLYAFFINE_WITH_VTK)");
+#endif
+}
+
+void import(const ImportOptions& o) {
+  check_output_file(o.out, ".vtu");
+  const HeartMesh heart = read(o);
+  write(o, heart);
+  for (const std::string& text : heart.warnings)
+    std::cerr << "cardiac: warning: " << o.file.string() << ": " << text << '\n';
+  std::cout << "read                 " << o.file.string() << '\n';
+  for (const std::string& note : heart.file.notes) std::cout << "                     " << note << '\n';
+  print_report(heart.file.mesh);
+  std::cout << "written              " << o.out.string() << " (mm)\n";
+}
+
+}  // namespace
+
+void add_import_command(CLI::App& mesh) {
+  CLI::App* command = mesh.add_subcommand(
+      "import", "Mesh or closed surface of another tool as tetrahedra with labelled surfaces, in mm");
+  const auto o = std::make_shared<ImportOptions>();
+  command
+      ->add_option("FILE", o->file,
+                   "tetrahedra (.vtu, .vtk, Gmsh .msh, openCARP .pts) or a closed surface (.stl, .off, .obj, "
+                   ".ply, .vtp)")
+      ->required();
+  command->add_option("--length-unit", o->length_unit, "length unit of the file: mm, cm, m or um")->required();
+  command->add_option("--out", o->out, "file to write, .vtu, lengths in mm")->required();
+  command->add_option("--surface-file", o->surface_file, "second file with the labelled triangles");
+  command->add_option("--label-array", o->label_array,
+                      "cell array of the surface labels (default: surface, label, tag, physical, …)");
+  command->add_option("--endo-label", o->endo, "number or name of the endocardium (left ventricle)");
+  command->add_option("--epi-label", o->epi, "number or name of the epicardium");
+  command->add_option("--base-label", o->base, "number or name of the base");
+  command->add_option("--rv-endo-label", o->rv_endo, "number or name of the right endocardium");
+  command->add_option("--size", o->size_mm, "edge length inside a closed surface, mm (default: half the wall)");
+  command->add_flag("--keep-fields", o->all_fields, "keep every numeric array, not only fibres");
+  command->callback([o] { import(*o); });
+}
+
+}  // namespace cardiac::app

@@ -1,0 +1,57 @@
+#include "surface_mesh.hpp"
+
+#include <array>
+#include <cmath>
+
+#include <polyaffine/core/error.hpp>
+#include <polyaffine/mesh/surface.hpp>
+#include <polyaffine/mesh_io/closed_surface.hpp>
+
+#include "read_heart.hpp"
+
+#ifdef CARDIAC_WITH_CGAL
+#include <polyaffine/meshing/polyhedral_domain.hpp>
+#endif
+
+namespace cardiac::app {
+
+using polyaffine::InputError;
+
+bool is_surface_file(const std::filesystem::path& file) {
+  constexpr std::array kExtensions{".stl", ".off", ".obj", ".ply", ".vtp"};
+  return std::ranges::find(kExtensions, file.extension().string()) != kExtensions.end();
+}
+
+HeartMesh fill_surface(const std::filesystem::path& file, const HeartMeshOptions& options,
+                       std::optional<double> size_mm) {
+#ifdef CARDIAC_WITH_CGAL
+  polyaffine::MeshData data = read_any_mesh(file);
+  data.points *= options.mm_per_unit;
+  polyaffine::make_closed_surface(data);
+  if (size_mm && !(*size_mm > 0 && std::isfinite(*size_mm)))
+    throw InputError("--size: found " + std::to_string(*size_mm) + " mm, expected a positive length");
+  const double volume = polyaffine::EnclosedVolume(data.triangles).value(data.points);
+  const double area = polyaffine::triangle_areas(data.points, data.triangles).sum();
+  const double edge = size_mm.value_or(-volume / area);
+  polyaffine::MeshData filled;
+  filled.source = file;
+  filled.notes = data.notes;
+  filled.notes.push_back("closed surface of " + std::to_string(data.triangles.cols()) +
+                         " triangles filled with tetrahedra of edges of about " + std::to_string(edge) + " mm");
+  try {
+    const polyaffine::TetMesh mesh =
+        polyaffine::mesh_polyhedral_domain(data.points, data.triangles, polyaffine::sizes_for_edge(edge));
+    filled.points = mesh.points();
+    filled.tets = mesh.tets();
+  } catch (const InputError& error) {
+    throw InputError(file.string() + ": " + error.what());
+  }
+  HeartMeshOptions in_mm = options;
+  in_mm.mm_per_unit = 1;
+  return make_heart_mesh(std::move(filled), nullptr, in_mm);
+#else
+  throw InputError(file.string() + ": this build fills no surfaces (CMake option POLYAFFINE_WITH_CGAL)");
+#endif
+}
+
+}  // namespace cardiac::app
