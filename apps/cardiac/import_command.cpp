@@ -10,6 +10,7 @@
 #include <polyaffine/mesh/quality.hpp>
 #include <polyaffine/mesh/surface.hpp>
 
+#include "label_options.hpp"
 #include "output_file.hpp"
 #include "read_heart.hpp"
 #include "surface_mesh.hpp"
@@ -25,9 +26,9 @@ using polyaffine::InputError;
 using polyaffine::TetMesh;
 
 struct ImportOptions {
-  std::filesystem::path file, surface_file, out;
-  std::string length_unit, label_array;
-  std::vector<std::string> endo, epi, base, rv_endo;
+  std::filesystem::path file, out;
+  std::string length_unit;
+  LabelOptions labels;
   std::optional<double> size_mm;
   bool all_fields = false;
 };
@@ -57,12 +58,12 @@ void print_report(const TetMesh& mesh) {
 HeartMesh read(const ImportOptions& o) {
   HeartMeshOptions options;
   options.mm_per_unit = mm_per_unit(length_unit(o.length_unit));
-  options.label_array = o.label_array;
-  options.labels = {surface_labels(o.endo), surface_labels(o.epi), surface_labels(o.base),
-                    surface_labels(o.rv_endo)};
+  options.label_array = o.labels.label_array;
+  options.labels = {surface_labels(o.labels.endo), surface_labels(o.labels.epi),
+                    surface_labels(o.labels.base), surface_labels(o.labels.rv_endo)};
   options.all_fields = o.all_fields;
   if (is_surface_file(o.file)) {
-    if (!o.surface_file.empty())
+    if (!o.labels.surface_file.empty())
       throw InputError("--surface-file: given beside the closed surface " + o.file.string() +
                        ", expected beside a mesh of tetrahedra");
     return fill_surface(o.file, options, o.size_mm);
@@ -70,7 +71,7 @@ HeartMesh read(const ImportOptions& o) {
   if (o.size_mm)
     throw InputError("--size: given for the tetrahedra of " + o.file.string() +
                      ", expected only with a closed surface");
-  return read_heart(o.file, o.surface_file, options);
+  return read_heart(o.file, o.labels.surface_file, options);
 }
 
 void write(const ImportOptions& o, const HeartMesh& heart) {
@@ -105,16 +106,12 @@ void add_import_command(CLI::App& mesh) {
                    "tetrahedra (.vtu, .vtk, Gmsh .msh, openCARP .pts) or a closed surface (.stl, .off, .obj, "
                    ".ply, .vtp)")
       ->required();
-  command->add_option("--length-unit", o->length_unit, "length unit of the file: mm, cm, m or um")->required();
+  command->add_option("--length-unit", o->length_unit, "length unit of the file: mm, cm, m or um")
+      ->required();
   command->add_option("--out", o->out, "file to write, .vtu, lengths in mm")->required();
-  command->add_option("--surface-file", o->surface_file, "second file with the labelled triangles");
-  command->add_option("--label-array", o->label_array,
-                      "cell array of the surface labels (default: surface, label, tag, physical, …)");
-  command->add_option("--endo-label", o->endo, "number or name of the endocardium (left ventricle)");
-  command->add_option("--epi-label", o->epi, "number or name of the epicardium");
-  command->add_option("--base-label", o->base, "number or name of the base");
-  command->add_option("--rv-endo-label", o->rv_endo, "number or name of the right endocardium");
-  command->add_option("--size", o->size_mm, "edge length inside a closed surface, mm (default: half the wall)");
+  add_label_options(*command, o->labels);
+  command->add_option("--size", o->size_mm,
+                      "edge length inside a closed surface, mm (default: half the wall)");
   command->add_flag("--keep-fields", o->all_fields, "keep every numeric array, not only fibres");
   command->callback([o] { import(*o); });
 }

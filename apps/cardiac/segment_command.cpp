@@ -16,6 +16,7 @@
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/mesh/surface.hpp>
 
+#include "label_options.hpp"
 #include "load_mesh.hpp"
 #include "output_file.hpp"
 #include "read_heart.hpp"
@@ -33,13 +34,13 @@ using polyaffine::TetMesh;
 
 struct SegmentOptions {
   std::filesystem::path mesh, out;
-  std::string scheme, length_unit, surface_file, label_array;
-  std::vector<std::string> endo, epi, base, rv_endo;
+  std::string scheme, length_unit;
+  LabelOptions labels;
   std::vector<double> anterior{0, 1, 0}, long_axis;
   HelixAngles angles;
 };
 
-std::optional<protocol::Labels> labels(const std::vector<std::string>& words) {
+std::optional<protocol::Labels> given_labels(const std::vector<std::string>& words) {
   if (words.empty()) return std::nullopt;
   return surface_labels(words);
 }
@@ -65,12 +66,12 @@ Protocol as_protocol(const SegmentOptions& o) {
   Protocol protocol;
   protocol.mesh.file = o.mesh.string();
   protocol.mesh.length_unit = length_unit(o.length_unit);
-  if (!o.surface_file.empty()) protocol.mesh.surface_file = o.surface_file;
-  if (!o.label_array.empty()) protocol.mesh.label_array = o.label_array;
-  protocol.mesh.endo_label = labels(o.endo);
-  protocol.mesh.epi_label = labels(o.epi);
-  protocol.mesh.base_label = labels(o.base);
-  protocol.mesh.rv_endo_label = labels(o.rv_endo);
+  if (!o.labels.surface_file.empty()) protocol.mesh.surface_file = o.labels.surface_file;
+  if (!o.labels.label_array.empty()) protocol.mesh.label_array = o.labels.label_array;
+  protocol.mesh.endo_label = given_labels(o.labels.endo);
+  protocol.mesh.epi_label = given_labels(o.labels.epi);
+  protocol.mesh.base_label = given_labels(o.labels.base);
+  protocol.mesh.rv_endo_label = given_labels(o.labels.rv_endo);
   protocol.anatomy.anterior_direction = direction("--anterior", o.anterior);
   if (!o.long_axis.empty()) protocol.anatomy.long_axis = direction("--long-axis", o.long_axis);
   return protocol;
@@ -158,15 +159,10 @@ void add_segment_command(CLI::App& app) {
   const auto o = std::make_shared<SegmentOptions>();
   command->add_option("MESH", o->mesh, "tetrahedral mesh (.vtu, .vtk, .msh, .pts)")->required();
   command->add_option("--scheme", o->scheme, "aha17 (left ventricle)")->required();
-  command->add_option("--length-unit", o->length_unit, "length unit of the mesh: mm, cm, m or um")->required();
+  command->add_option("--length-unit", o->length_unit, "length unit of the mesh: mm, cm, m or um")
+      ->required();
   command->add_option("--out", o->out, "file to write, .vtu, lengths in mm")->required();
-  command->add_option("--surface-file", o->surface_file, "second file with the labelled triangles");
-  command->add_option("--label-array", o->label_array,
-                      "cell array of the surface labels (default: surface, label, tag, physical, …)");
-  command->add_option("--endo-label", o->endo, "number or name of the endocardium (left ventricle)");
-  command->add_option("--epi-label", o->epi, "number or name of the epicardium");
-  command->add_option("--base-label", o->base, "number or name of the base");
-  command->add_option("--rv-endo-label", o->rv_endo, "number or name of the right endocardium");
+  add_label_options(*command, o->labels);
   command->add_option("--anterior", o->anterior, "direction from the long axis to the anterior wall")
       ->expected(3)
       ->capture_default_str();

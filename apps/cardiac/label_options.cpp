@@ -1,0 +1,20 @@
+#include "label_options.hpp"
+
+namespace cardiac::app {
+
+void add_label_options(CLI::App& command, LabelOptions& options) {
+  const auto add = [&](const char* name, std::vector<std::string>& labels, const char* surface) {
+    command.add_option(name, labels, std::string("numbers or names, divided by commas, of the ") + surface)
+        ->delimiter(',')
+        ->allow_extra_args(false);
+  };
+  command.add_option("--surface-file", options.surface_file, "second file with the labelled triangles");
+  command.add_option("--label-array", options.label_array,
+                     "cell array of the surface labels (default: surface, label, tag, physical, …)");
+  add("--endo-label", options.endo, "endocardium (left ventricle)");
+  add("--epi-label", options.epi, "epicardium");
+  add("--base-label", options.base, "base");
+  add("--rv-endo-label", options.rv_endo, "right endocardium");
+}
+
+}  // namespace cardiac::app
