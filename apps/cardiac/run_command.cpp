@@ -6,8 +6,10 @@
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <sstream>
 
 #include <cardiac/heart/checkpoint.hpp>
+#include <cardiac/heart/trained_rule.hpp>
 #include <cardiac/heart/verification.hpp>
 #include <cardiac/protocol/describe.hpp>
 #include <cardiac/protocol/plan.hpp>
@@ -164,6 +166,18 @@ HeartPath solve(const Ventricle& ventricle, const Protocol& protocol, const RunO
                               : run_prescribed(ventricle, protocol, control);
 }
 
+// Why a path by a trained rule is not to be used; empty where it is.
+std::string distrust(const Ventricle& ventricle, const Protocol& protocol, const HeartPath& path) {
+  if (!ventricle.all_points) return "";
+  if (!path.completed) return "with the trained integration points the run " + path.stop_reason;
+  const double error = rule_error(ventricle, protocol, path);
+  if (error <= kTrustedRuleError) return "";
+  std::ostringstream out;
+  out << std::setprecision(2) << "the trained integration points are " << 100 * error
+      << " % off in displacement, more than " << 100 * kTrustedRuleError << " %";
+  return out.str();
+}
+
 void run(RunOptions options) {
   const auto start = std::chrono::steady_clock::now();
   if (!options.method.empty()) options.overrides.push_back("reduction.method=" + options.method);
@@ -178,12 +192,19 @@ void run(RunOptions options) {
                           : std::filesystem::path(options.out);
   polyaffine::make_folder(out);
 
-  const Ventricle ventricle = build_ventricle(anatomy, protocol, protocol.reduction.method);
+  Ventricle ventricle = build_ventricle(anatomy, protocol, protocol.reduction.method);
   const auto nodes = segment_nodes(*anatomy, protocol);
   const double setup = seconds_since(start);
   const auto solve_start = std::chrono::steady_clock::now();
   const InterruptGuard interrupt;
-  const HeartPath path = solve(ventricle, protocol, options, out, interrupt);
+  HeartPath path = solve(ventricle, protocol, options, out, interrupt);
+  const std::string reason = interrupt.reason().empty() ? distrust(ventricle, protocol, path) : "";
+  if (!reason.empty()) {
+    options.resume = false;
+    ventricle = Ventricle(*ventricle.all_points);
+    path = solve(ventricle, protocol, options, out, interrupt);
+    path.warnings.push_back(reason + ": computed with all points");
+  }
   const double solve_s = seconds_since(solve_start);
   BeatResult result = describe_path(ventricle, nodes, protocol, path);
   result.wall_setup_s = setup;

@@ -116,17 +116,18 @@ BeatResult describe_path(const Ventricle& ventricle, const std::vector<ControlNo
     out.warnings.push_back("the wall was compressed to " + std::to_string(100 * path.min_det_F) +
                            " % of its volume somewhere (min_det_F): the numbers are not those of muscle; "
                            "lower the load or raise tissue.bulk_modulus_kPa");
-  out.segments = segment_info(ventricle);
+  // A trained rule keeps forces and volumes; means over segments are those of all points.
+  const Ventricle& told = ventricle.all_points ? *ventricle.all_points : ventricle;
+  out.segments = segment_info(told);
   if (path.steps.empty()) return out;
 
   const KeySteps key = key_steps(path, protocol);
   out.ventricles.push_back(summarise(path, key, out.has_beat));
-  const SegmentGauge gauge(*anatomy.coordinates, d.points);
-  const polyaffine::DisplacementMap displacement(*d.basis, d.points.tet, d.points.barycentric);
+  const auto& points = told.discretisation.points;
+  const SegmentGauge gauge(*anatomy.coordinates, points);
+  const polyaffine::DisplacementMap displacement(*d.basis, points.tet, points.barycentric);
   const auto positions = [&](const Vector& c) { return Points(gauge.positions() + displacement.apply(c)); };
-  const auto gradients = [&](const Vector& c) {
-    return polyaffine::evaluate_field(ventricle.wall->table(), c);
-  };
+  const auto gradients = [&](const Vector& c) { return polyaffine::evaluate_field(told.wall->table(), c); };
   const auto* frames = d.layout.follows_segments ? d.frame_basis.get() : nullptr;
 
   const Matrix F_ed = gradients(path.steps[key.ed].c);

@@ -5,6 +5,7 @@
 
 #include <cardiac/activation/activation.hpp>
 #include <cardiac/fibres/helix.hpp>
+#include <cardiac/heart/trained_rule.hpp>
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/energy/springs.hpp>
 #include <polyaffine/material/signed_volume.hpp>
@@ -115,16 +116,33 @@ std::unique_ptr<polyaffine::LinearSystem> Ventricle::make_system() const {
   return polyaffine::sparse_system(tables, discretisation.fixed);
 }
 
+Discretisation discretise(const std::shared_ptr<const Anatomy>& anatomy, const Protocol& protocol,
+                          protocol::Method method) {
+  return method == protocol::Method::fem ? full_discretisation(*anatomy, protocol)
+                                         : reduced_discretisation(*anatomy, protocol);
+}
+
 Ventricle build_ventricle(std::shared_ptr<const Anatomy> anatomy, const Protocol& protocol,
                           protocol::Method method) {
+  Ventricle all = assemble_ventricle(anatomy, protocol, discretise(anatomy, protocol, method));
+  if (method == protocol::Method::fem || protocol.reduction.integration != protocol::Integration::trained)
+    return all;
+  const TrainedRule rule = cached_rule(anatomy, protocol);
+  Ventricle out = assemble_ventricle(anatomy, protocol, with_rule(all.discretisation, rule));
+  out.built = all.built;
+  out.all_points = std::make_shared<const Ventricle>(std::move(all));
+  return out;
+}
+
+Ventricle assemble_ventricle(std::shared_ptr<const Anatomy> anatomy, const Protocol& protocol,
+                             Discretisation discretisation) {
   Ventricle out;
-  out.discretisation = method == protocol::Method::fem ? full_discretisation(*anatomy, protocol)
-                                                       : reduced_discretisation(*anatomy, protocol);
+  out.discretisation = std::move(discretisation);
   const auto& d = out.discretisation;
   const RegionFactors factors = region_factors(*anatomy, protocol, d.points);
   if (!factors.stiffness.empty()) ++out.built["regions"];
   out.wall = build_wall(*anatomy, protocol, d, factors, out.built);
-  ++out.built[method == protocol::Method::fem ? "full order" : "reduction"];
+  ++out.built[d.sparse ? "full order" : "reduction"];
   if (!d.cavity_points.tet.empty()) {
     ++out.built["cavity"];
     out.cavity = std::make_shared<FieldEnergy>(

@@ -28,6 +28,7 @@ struct Ventricle {
   std::shared_ptr<const polyaffine::FieldEnergy> cavity;  ///< its volume, mm³
   std::vector<std::shared_ptr<const polyaffine::FieldEnergy>> springs;
   std::shared_ptr<const ContractionField> contraction;
+  std::shared_ptr<const Ventricle> all_points;  ///< the same without a trained rule; null where there is none
   BuildCount built;
 
   int num_coefficients() const { return wall->table().num_unknowns(); }
@@ -35,6 +36,13 @@ struct Ventricle {
   /// A system with the pattern of the wall, the cavity and the springs.
   std::unique_ptr<polyaffine::LinearSystem> make_system() const;
 };
+
+/// Shape functions and integration points of a protocol's model; `trained` points are all their candidates.
+Discretisation discretise(const std::shared_ptr<const Anatomy>& anatomy, const Protocol& protocol,
+                          protocol::Method method);
+/// The parts that the protocol names, on a discretisation.
+Ventricle assemble_ventricle(std::shared_ptr<const Anatomy> anatomy, const Protocol& protocol,
+                             Discretisation discretisation);
 
 /// Builds what `plan(protocol)` says, from a mesh in mm.
 Ventricle build_ventricle(std::shared_ptr<const Anatomy> anatomy, const Protocol& protocol,

@@ -138,7 +138,9 @@ Table reduction_table() {
            .absent = "0 for every ring"})
       .key("integration", &Reduction::integration,
            {.meaning = "integration points: cells (few points that keep polynomials between the kinks of the "
-                       "weights exact) or gauss (in every tetrahedron)"})
+                       "weights exact), gauss (in every tetrahedron) or trained (about half of the cells' "
+                       "points, chosen once for the heart on states of other pressures, tensions and "
+                       "stiffnesses, kept in the cache)"})
       .key(
           "element_order", &Reduction::element_order,
           {.range = {1, 2},

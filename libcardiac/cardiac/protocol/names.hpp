@@ -36,8 +36,8 @@ constexpr Names<5> names_of(PressureSpace) {
 constexpr Names<2> names_of(Axes) {
   return {"heart", "cartesian"};
 }
-constexpr Names<2> names_of(Integration) {
-  return {"cells", "gauss"};
+constexpr Names<3> names_of(Integration) {
+  return {"cells", "gauss", "trained"};
 }
 constexpr Names<5> names_of(TissueLaw) {
   return {"guccione", "holzapfel_ogden", "neo_hookean", "mooney_rivlin", "saint_venant_kirchhoff"};

@@ -36,7 +36,7 @@ enum class Preset { fast, accurate };
 enum class Weights { sigmoid, tents };
 enum class PressureSpace { none, segment, segment_depth, segment_linear, segment_bilinear };
 enum class Axes { heart, cartesian };
-enum class Integration { cells, gauss };
+enum class Integration { cells, gauss, trained };
 struct Reduction {
   Method method = Method::polyaffine;
   Preset preset = Preset::fast;

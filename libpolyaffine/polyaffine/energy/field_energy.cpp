@@ -170,6 +170,42 @@ EnergyValue FieldEnergy::evaluate(const Motion& motion) const {
   return out;
 }
 
+PointTerms FieldEnergy::point_terms(const Motion& motion) const {
+  const Kinematics kin = kinematics(motion);
+  PointTerms out;
+  out.value.resize(table_.num_points());
+  out.gradient = Matrix::Zero(table_.num_unknowns(), table_.num_points());
+  if (motion.pressure) out.pressure_gradient = Matrix::Zero(pressure_->num_functions, table_.num_points());
+  Matrix rows;
+  for (std::size_t k = 0; k < packed_.size(); ++k) {
+    const PackedBlock& block = packed_[k];
+    const PointBlock& points = table_.blocks[k];
+    const Vector pressure = point_pressure(kin.p, k);
+    std::vector<Mat3Pack> P(block.num_packs());
+    PackResponse r;
+    for (int pack = 0; pack < block.num_packs(); ++pack) {
+      respond(kin, motion, k, pressure, pack, false, 0, r);
+      std::copy(r.P, r.P + 9, P[pack].m);
+      const auto [point, lanes] = block.points(pack);
+      for (int lane = 0; lane < lanes; ++lane) out.value[point + lane] = r.W[lane];
+    }
+    block_force_rows(block, P.data(), Matrix::Identity(points.count, points.count), rows);
+    for (std::size_t a = 0; a < block.functions().size(); ++a)
+      out.gradient.block(3 * static_cast<Eigen::Index>(block.functions()[a]), points.first, 3, points.count) =
+          rows.middleCols<3>(static_cast<Eigen::Index>(3 * a)).transpose();
+    if (!motion.pressure) continue;
+    const auto& space = pressure_->blocks[k];
+    for (int q = 0; q < points.count; ++q) {
+      const int point = points.first + q;
+      double change = kin.J[point] - 1;
+      if (!pressure_->incompressible) change -= pressure[q] / pressure_->bulk_modulus;
+      out.pressure_gradient.col(point)(space.functions) =
+          table_.weights[point] * change * space.values.col(q);
+    }
+  }
+  return out;
+}
+
 void FieldEnergy::add_tangent(const Motion& motion, LinearSystem& system, double scale,
                               double rate_factor) const {
   const Motion used{motion.c, motion.state, rate_factor != 0 ? motion.rate : nullptr, motion.pressure};

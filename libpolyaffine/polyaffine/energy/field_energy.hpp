@@ -31,6 +31,15 @@ struct EnergyValue {
   double min_det = 1, max_det = 1;
 };
 
+/// The terms of an EnergyValue's sums over the points, a column (of `value`: a number) for each point. They
+/// sum to the gradient; in the mixed form also to the pressure gradient; `value` holds the energy of the
+/// laws.
+struct PointTerms {
+  Vector value;
+  Matrix gradient;           ///< unknowns × points
+  Matrix pressure_gradient;  ///< pressures × points
+};
+
 /// W(c) = Σ_q w_q Σ_laws W_law(M_q(c)) + W_vol, over the points of a field table, with gradient
 /// f_a = Σ_q w_q P_q row_a and tangent Σ_q w_q B_qᵀ A_q B_q. Units: µJ, mN, mN/mm for the wall; with the
 /// signed volume law on a surface table, mm³ and its derivatives.
@@ -48,6 +57,8 @@ class FieldEnergy {
 
   /// Value and gradient; when min_det ≤ 0 in a wall the numbers are not to be used.
   EnergyValue evaluate(const Motion& motion) const;
+  /// What each point contributes, for the choice of fewer points (CubatureTraining).
+  PointTerms point_terms(const Motion& motion) const;
   /// Adds scale × tangent to the system, K(c, p) + κ DᵀM⁻¹D with D = ∂g/∂c: the exact tangent of the
   /// condensed form, and in the mixed form that of Newton's method after its pressure step is eliminated. The
   /// dependence of viscous stress on c itself is not included (it vanishes with the step).

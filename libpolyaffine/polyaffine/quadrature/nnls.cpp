@@ -130,7 +130,7 @@ NnlsResult nnls(const Matrix& a, const Vector& b, const NnlsOptions& options) {
   Vector x = Vector::Zero(a.cols());
   Vector residual = b;
   while (result.iterations < limit) {
-    if (residual.norm() <= tolerance) result.converged = true;
+    if (residual.norm() <= std::max(tolerance, options.accuracy * b.norm())) result.converged = true;
     if (result.converged) break;
     Vector gradient = problem.a.transpose() * residual;
     for (const int j : active.columns()) gradient[j] = 0;
