@@ -12,8 +12,10 @@
 #include <cardiac/bench/bench.hpp>
 #include <cardiac/bench/bench_figure.hpp>
 #include <cardiac/bench/bench_table.hpp>
+#include <cardiac/bench/cube_bench.hpp>
 #include <polyaffine/core/atomic_file.hpp>
 
+#include "box_mesh.hpp"
 #include "ellipsoid_mesh.hpp"
 #include "load_mesh.hpp"
 #include "progress.hpp"
@@ -77,6 +79,7 @@ void bench(const BenchOptions& options) {
   BenchContext context;
   context.quick = options.quick;
   context.mesh_ellipsoid = mesh_truncated_ellipsoid;
+  context.mesh_box = mesh_box;
   context.settings = options.settings;
   if (!options.quiet) {
     print_header();
@@ -90,12 +93,15 @@ void bench(const BenchOptions& options) {
     polyaffine::write_atomically(options.out / "bench.svg", bench_svg(results));
   };
   if (options.scene == kBeat) return add(beat(options));
-  for (const BenchScene& scene : bench_scenes()) {
-    if (!options.scene.empty() && options.scene != scene.group) continue;
+  const auto chosen = [&](const std::string& name) { return options.scene.empty() || options.scene == name; };
+  const auto run = [&](const auto& solve) {
     ProgressLine line(options.quiet);
     context.progress = [&](const std::string& what, double fraction) { line(what, fraction); };
-    add(run_scene(scene, context));
-  }
+    add(solve(context));
+  };
+  if (chosen(kCubeBench)) run(run_cube_scene);
+  for (const BenchScene& scene : bench_scenes())
+    if (chosen(scene.group)) run([&](const BenchContext& c) { return run_scene(scene, c); });
 }
 
 }  // namespace
@@ -103,7 +109,7 @@ void bench(const BenchOptions& options) {
 void add_bench_command(CLI::App& app) {
   auto* command = app.add_subcommand("bench", "Error against run time of reduced and full-order models.");
   auto options = std::make_shared<BenchOptions>();
-  std::vector<std::string> names;
+  std::vector<std::string> names{kCubeBench};
   for (const BenchScene& scene : bench_scenes()) {
     if (!names.empty() && names.back() == scene.group) continue;
     names.push_back(scene.group);

@@ -7,6 +7,7 @@
 
 #include <cardiac/report/text.hpp>
 #include <polyaffine/core/error.hpp>
+#include <polyaffine/core/single_thread.hpp>
 #include <polyaffine/kinematics/region_frames.hpp>
 #include <polyaffine/material/linear_elastic.hpp>
 #include <polyaffine/material/neo_hookean.hpp>
@@ -57,19 +58,30 @@ class PlatenFrames : public FrameField {
   RegionFrames inner_;
 };
 
-PlatenSolution solve(const CubeScene& scene, const Basis& basis, const EquilibriumProblem& problem,
-                     LinearSystem& system) {
-  Vector c = Vector::Zero(3 * basis.num_functions());
-  const NewtonReport report = newton(problem, 1, system, c);
+PlatenSolution solve(const CubeScene& scene, std::shared_ptr<const Basis> basis,
+                     const EquilibriumProblem& problem, LinearSystem& system, double start_s) {
+  PlatenSolution out;
+  const double built = processor_seconds();
+  out.setup_s = built - start_s;
+  out.c = Vector::Zero(3 * basis->num_functions());
+  const NewtonReport report = newton(problem, 1, system, out.c);
+  out.solve_s = processor_seconds() - built;
   if (!report.converged()) throw ComputationError("cube between platens: " + to_string(report.reason));
   const QuadraturePoints at = centroids(scene.mesh);
+  const FieldEnergy& energy = *problem.terms[0].energy;
   // Twice the energy is the force times the approach.
-  const double force = 2 * problem.terms[0].energy->evaluate({c}).value / kApproach;
-  return {-kApproach * kForce / force, DisplacementMap(basis, at.tet, at.barycentric).apply(c)};
+  const double force = 2 * energy.evaluate({out.c}).value / kApproach;
+  out.thickness_change_mm = -kApproach * kForce / force;
+  out.displacement = DisplacementMap(*basis, at.tet, at.barycentric).apply(out.c);
+  out.integration_points = energy.table().num_points();
+  out.basis = std::move(basis);
+  return out;
 }
 
-PlatenSolution solve_full_order(const CubeScene& scene, const LagrangeBasis& basis, Laws laws,
+PlatenSolution solve_full_order(const CubeScene& scene, std::shared_ptr<const LagrangeBasis> of, Laws laws,
                                 bool mean_dilatation) {
+  const double start = processor_seconds();
+  const LagrangeBasis& basis = *of;
   const FieldTable table = deformation_table(basis, basis.wall_points(basis.order() == 1 ? 1 : 4));
   std::optional<PressureSpace> pressure;
   if (mean_dilatation) pressure = block_pressure(table, bulk_modulus());
@@ -81,7 +93,8 @@ PlatenSolution solve_full_order(const CubeScene& scene, const LagrangeBasis& bas
     for (int k = 0; k < 3; ++k) problem.fixed[3 * node + k] = 1;
     if (basis.nodes()(2, node) > kCubeSize / 2) problem.prescribed[3 * node + 2] = -kApproach;
   }
-  return solve(scene, basis, problem, *sparse_system({&table}, problem.fixed));
+  const auto system = sparse_system({&table}, problem.fixed);
+  return solve(scene, std::move(of), problem, *system, start);
 }
 
 }  // namespace
@@ -99,15 +112,16 @@ std::shared_ptr<const Basis> platen_basis(const CubeScene& scene, const CubePlac
 }
 
 PlatenSolution solve_platens_linear(const CubeScene& scene) {
-  return solve_full_order(scene, *scene.linear, {std::make_shared<LinearElastic>(kCubeElasticity)}, false);
+  return solve_full_order(scene, scene.linear, {std::make_shared<LinearElastic>(kCubeElasticity)}, false);
 }
 
 PlatenSolution solve_platens_quadratic(const CubeScene& scene) {
-  return solve_full_order(scene, *scene.quadratic,
+  return solve_full_order(scene, scene.quadratic,
                           {std::make_shared<IsochoricNeoHookean>(lame(kCubeElasticity).mu)}, true);
 }
 
 PlatenSolution solve_platens_reduced(const CubeScene& scene, const CubePlacement& placement) {
+  const double start = processor_seconds();
   const QuadraturePoints& points = placement.integration.points;
   const auto basis = platen_basis(scene, placement);
   FieldTable table = deformation_table(*basis, placement.wall_points(points));
@@ -129,7 +143,8 @@ PlatenSolution solve_platens_reduced(const CubeScene& scene, const CubePlacement
   std::fill(problem.fixed.end() - 3, problem.fixed.end(), 1);
   problem.prescribed = Vector::Zero(table.num_unknowns());
   problem.prescribed[table.num_unknowns() - 1] = -kApproach;
-  return solve(scene, *basis, problem, *dense_system(table.num_unknowns(), problem.fixed));
+  const auto system = dense_system(table.num_unknowns(), problem.fixed);
+  return solve(scene, basis, problem, *system, start);
 }
 
 PlatenRow compare_platens(const CubeScene& scene, const PlatenSolution& truth, int zones, int points,

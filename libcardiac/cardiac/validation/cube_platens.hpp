@@ -12,6 +12,10 @@ namespace cardiac {
 struct PlatenSolution {
   double thickness_change_mm = 0;
   polyaffine::Points displacement;  ///< at the centroids of the tets, for the same approach
+  std::shared_ptr<const polyaffine::Basis> basis;
+  polyaffine::Vector c;  ///< coefficients of the basis, for the same approach
+  int integration_points = 0;
+  double setup_s = 0, solve_s = 0;  ///< processor time, of functions and energy and of Newton
 };
 
 /// Linear tetrahedra.
