@@ -50,7 +50,9 @@ int run_program(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return run_program(argc, argv);
+    const int status = run_program(argc, argv);
+    if (!std::cout.flush()) throw polyaffine::ComputationError("cannot write to the standard output");
+    return status;
   } catch (const polyaffine::InputError& error) {
     return report(error, kWrongInput);
   } catch (const std::exception& error) {

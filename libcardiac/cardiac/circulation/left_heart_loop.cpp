@@ -5,8 +5,9 @@ namespace {
 
 /// The aortic valve and the proximal resistance in series.
 Valve outlet(const LeftHeartLoop& loop) {
-  return {loop.aortic.resistance_kPa_ms_per_mm3 + loop.arteries.proximal_resistance_kPa_ms_per_mm3,
-          loop.aortic.smoothing_kPa};
+  const double proximal = loop.arteries.proximal_resistance_kPa_ms_per_mm3;
+  return {loop.aortic.resistance_kPa_ms_per_mm3 + proximal, loop.aortic.smoothing_kPa,
+          loop.aortic.leak_kPa_ms_per_mm3 + proximal};
 }
 
 /// A run of samples on a circle: from `begin`, `length` samples onwards.

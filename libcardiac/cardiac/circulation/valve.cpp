@@ -6,10 +6,10 @@ namespace cardiac {
 
 ValveFlow valve_flow(const Valve& valve, double pressure_drop_kPa) {
   const double eps = valve.smoothing_kPa, root = std::hypot(pressure_drop_kPa, eps);
-  const double opening =
-      pressure_drop_kPa > 0 ? root + pressure_drop_kPa : eps * eps / (root - pressure_drop_kPa);
-  const double flow = opening / (2 * valve.resistance_kPa_ms_per_mm3);
-  return {flow, flow / root};
+  const auto opening = [&](double drop) { return drop > 0 ? root + drop : eps * eps / (root - drop); };
+  const double forward = opening(pressure_drop_kPa) / (2 * valve.resistance_kPa_ms_per_mm3);
+  const double backward = opening(-pressure_drop_kPa) / (2 * valve.leak_kPa_ms_per_mm3);
+  return {forward - backward, (forward + backward) / root};
 }
 
 bool is_open(const Valve& valve, double pressure_drop_kPa) {

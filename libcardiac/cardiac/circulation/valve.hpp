@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include <cardiac/core/units.hpp>
 
 namespace cardiac {
@@ -8,6 +10,7 @@ namespace cardiac {
 struct Valve {
   double resistance_kPa_ms_per_mm3 = 0;
   double smoothing_kPa = 0.05 * kPa_per_mmHg;  ///< ε, the pressure over which it opens and closes
+  double leak_kPa_ms_per_mm3 = std::numeric_limits<double>::infinity();  ///< resistance backwards
 };
 
 struct ValveFlow {
@@ -15,11 +18,12 @@ struct ValveFlow {
   double slope;  ///< ∂q/∂Δp in mm³/(ms·kPa), positive
 };
 
-/// q(Δp) = (√(Δp² + ε²) + Δp) / (2R), with Δp the pressure before minus the pressure behind the valve.
+/// q(Δp) = (√(Δp² + ε²) + Δp) / (2R) − (√(Δp² + ε²) − Δp) / (2R_leak), with Δp the pressure before minus the
+/// pressure behind the valve.
 ///
-/// Always positive and increasing; Δp/R when open, ε/(2R) at Δp = 0, and ε²/(4R|Δp|) when closed: with ε 0.05
-/// mmHg and R 0.01 mmHg·s/mL a closed valve under 100 mmHg leaks 0.0006 mL/s, forward. Evaluated without
-/// cancellation on both sides. R and ε must be positive.
+/// Without a leak always positive and increasing; Δp/R when open, ε/(2R) at Δp = 0, and ε²/(4R|Δp|) when
+/// closed: with ε 0.05 mmHg and R 0.01 mmHg·s/mL a closed valve under 100 mmHg leaks 0.0006 mL/s, forward.
+/// Evaluated without cancellation on both sides. R, R_leak and ε must be positive.
 ValveFlow valve_flow(const Valve& valve, double pressure_drop_kPa);
 
 /// Whether a valve counts as open: Δp > −10 ε, that is a flow above ε/(40R). The margin keeps a valve through

@@ -22,6 +22,8 @@ LeftHeartLoop left_heart_loop(const protocol::Circulation& c) {
   loop.aortic.resistance_kPa_ms_per_mm3 =
       (c.aortic_valve_resistance_mmHg_s_per_mL + c.characteristic_resistance_mmHg_s_per_mL) *
       resistance_per_mmHg_s_per_mL;
+  if (c.aortic_leak_resistance_mmHg_s_per_mL)
+    loop.aortic.leak_kPa_ms_per_mm3 = *c.aortic_leak_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL;
   loop.arteries = {c.characteristic_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL,
                    c.peripheral_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL,
                    c.compliance_mL_per_mmHg * compliance_per_mL_per_mmHg,
@@ -37,7 +39,8 @@ bool stop_wanted(const RunControl& control) {
 
 std::string why(const polyaffine::LoadReport& report, const RunControl& control) {
   if (report.reason == polyaffine::StopReason::interrupted) return control.stop_reason();
-  return polyaffine::to_string(report.last.reason);
+  return "no equilibrium was found beyond it (" + polyaffine::to_string(report.last.reason) +
+         "): a limit load, buckling, or a load too large for the tissue";
 }
 
 // The wall in equilibrium at the filling pressure. On failure the path says so.
@@ -222,6 +225,12 @@ HeartPath run_prescribed(const Ventricle& ventricle, const Protocol& protocol, c
     const auto report = polyaffine::load_stepping(problem, *system, c, options);
     path.time_steps += report.steps;
     path.newton_iterations += report.iterations;
+    path.cuts += report.cuts;
+    if (report.unstable_from)
+      path.warnings.push_back(
+          "from " + std::to_string(100 * *report.unstable_from) +
+          " % of the load on the equilibrium is no minimum of the energy: the wall may buckle, "
+          "and there may be other solutions");
     if (!report.converged())
       path.stop_reason =
           "stopped at " + std::to_string(100 * report.reached) + " % of the load: " + why(report, control);

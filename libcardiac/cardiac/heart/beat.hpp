@@ -25,6 +25,7 @@ struct HeartPath {
   std::vector<HeartState> outputs;         ///< at multiples of the output interval
   std::vector<double> stroke_volumes_mm3;  ///< one a beat
   int beats = 0, time_steps = 0, newton_iterations = 0;
+  int cuts = 0;  ///< load steps that failed and were halved
   SolveCost cost;
   double simulated_ms = 0;
   double beat_start_ms = 0;  ///< of the last beat, on the clock of the contraction

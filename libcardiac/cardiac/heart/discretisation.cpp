@@ -1,5 +1,6 @@
 #include "cardiac/heart/discretisation.hpp"
 
+#include <polyaffine/core/error.hpp>
 #include <polyaffine/kinematics/lagrange.hpp>
 
 namespace cardiac {
@@ -14,6 +15,9 @@ polyaffine::SurfacePoints turned(polyaffine::SurfacePoints points) {
   points.X_xi.swap(points.X_eta);
   return points;
 }
+
+// Of a reduced model: its tangent is dense, 1 GB.
+constexpr int kMostUnknowns = 12000;
 
 }  // namespace
 
@@ -59,6 +63,20 @@ Discretisation full_discretisation(const Anatomy& anatomy, const Protocol& proto
   add_surface_points(
       anatomy, protocol, *basis, [&](int, const LagrangeBasis::FaceCorners&) { return rule; }, out);
   return out;
+}
+
+void check_size(const Discretisation& d) {
+  const std::string found = std::to_string(d.num_unknowns) + " unknowns";
+  const std::string remedy = "fewer control nodes (reduction.ring_nodes)";
+  if (!d.sparse && d.num_unknowns > kMostUnknowns)
+    throw polyaffine::InputError("found " + found + ", expected at most " + std::to_string(kMostUnknowns) +
+                                 " of a reduced model: " + remedy + " or reduction.method = \"fem\"");
+  const std::size_t points = d.points.tet.size();
+  if (6 * points < static_cast<std::size_t>(d.num_unknowns))
+    throw polyaffine::InputError("found " + std::to_string(points) + " integration points for " + found +
+                                 ", expected at least a sixth of them (" +
+                                 std::to_string((d.num_unknowns + 5) / 6) + "): " + remedy +
+                                 " or a finer mesh");
 }
 
 }  // namespace cardiac

@@ -69,6 +69,10 @@ Discretisation full_discretisation(const Anatomy& anatomy, const Protocol& proto
 using FaceRule =
     std::function<polyaffine::TriangleRule(int tet, const polyaffine::LagrangeBasis::FaceCorners& corners)>;
 
+/// Throws InputError when the integration points are fewer than a sixth of the unknowns (a point resists six
+/// strains, so that nothing would resist some motion), or when a reduced model has more than 12 000 unknowns.
+void check_size(const Discretisation& discretisation);
+
 /// Adds the points of the surfaces on which the protocol has loads or springs.
 void add_surface_points(const Anatomy& anatomy, const Protocol& protocol,
                         const polyaffine::LagrangeBasis& geometry, const FaceRule& rule,

@@ -139,6 +139,7 @@ Ventricle assemble_ventricle(std::shared_ptr<const Anatomy> anatomy, const Proto
   Ventricle out;
   out.discretisation = std::move(discretisation);
   const auto& d = out.discretisation;
+  check_size(d);
   const RegionFactors factors = region_factors(*anatomy, protocol, d.points);
   if (!factors.stiffness.empty()) ++out.built["regions"];
   out.wall = build_wall(*anatomy, protocol, d, factors, out.built);

@@ -44,7 +44,8 @@ Discretisation discretise(const std::shared_ptr<const Anatomy>& anatomy, const P
 Ventricle assemble_ventricle(std::shared_ptr<const Anatomy> anatomy, const Protocol& protocol,
                              Discretisation discretisation);
 
-/// Builds what `plan(protocol)` says, from a mesh in mm.
+/// Builds what `plan(protocol)` says, from a mesh in mm. Throws InputError as the discretisation does,
+/// check_size included.
 Ventricle build_ventricle(std::shared_ptr<const Anatomy> anatomy, const Protocol& protocol,
                           protocol::Method method);
 

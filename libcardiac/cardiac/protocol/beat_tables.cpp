@@ -80,8 +80,8 @@ Table cavities_table() {
                      &Protocol::cavities);
   table.key("pressure_mmHg", &Cavities::pressure_mmHg,
             {.unit = "mmHg",
-             .range = {0, 1000},
-             .meaning = "pressure that is reached from zero, in time.load_steps steps",
+             .range = {-100, 1000},
+             .meaning = "pressure that is reached from zero, in time.load_steps steps; negative: suction",
              .required = true});
   return table.build();
 }
@@ -102,6 +102,11 @@ Table circulation_table() {
             .range = above_zero(100),
             .meaning = "resistance of the open aortic valve",
             .source = "Regazzoni 2022: 0.0075"})
+      .key("aortic_leak_resistance_mmHg_s_per_mL", &Circulation::aortic_leak_resistance_mmHg_s_per_mL,
+           {.unit = unit,
+            .range = above_zero(1000),
+            .meaning = "resistance of the closed aortic valve to backward flow (regurgitation)",
+            .absent = "the valve is tight"})
       .key("characteristic_resistance_mmHg_s_per_mL", &Circulation::characteristic_resistance_mmHg_s_per_mL,
            {.unit = unit,
             .range = {0, 100},
@@ -114,7 +119,7 @@ Table circulation_table() {
             .source = source})
       .key("compliance_mL_per_mmHg", &Circulation::compliance_mL_per_mmHg,
            {.unit = "mL/mmHg",
-            .range = above_zero(100),
+            .range = above_zero(1e4),
             .meaning = "compliance of the arteries",
             .source = "Regazzoni 2022: 1.372"})
       .key("venous_pressure_mmHg", &Circulation::venous_pressure_mmHg,
@@ -194,7 +199,7 @@ Table region_table() {
       .key("tension_factor", &RegionOverride::tension_factor,
            {.range = {0, 10}, .meaning = "factor on contraction.contractility_kPa; 0: does not contract"})
       .key("stiffness_factor", &RegionOverride::stiffness_factor,
-           {.range = above_zero(1000), .meaning = "factor on the moduli of the passive law"})
+           {.range = above_zero(1e6), .meaning = "factor on the moduli of the passive law"})
       .key("activation_delay_ms", &RegionOverride::activation_delay_ms,
            {.unit = "ms", .range = {0, 2000}, .meaning = "added to the time of excitation"})
       .key("border_width_percent", &RegionOverride::border_width_percent,

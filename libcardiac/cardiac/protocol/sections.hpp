@@ -104,6 +104,7 @@ struct Circulation {
   double filling_pressure_mmHg = 10;
   double mitral_resistance_mmHg_s_per_mL = 0.01;
   double aortic_valve_resistance_mmHg_s_per_mL = 0.007;
+  std::optional<double> aortic_leak_resistance_mmHg_s_per_mL;  ///< backwards; absent: the valve is tight
   double characteristic_resistance_mmHg_s_per_mL = 0.04;
   double peripheral_resistance_mmHg_s_per_mL = 1.0;
   double compliance_mL_per_mmHg = 1.5;

@@ -1,5 +1,6 @@
 #include <cardiac/validation/cube.hpp>
 #include <cardiac/validation/ellipsoid.hpp>
+#include <cardiac/validation/extreme.hpp>
 #include <cardiac/validation/land.hpp>
 
 #include "cardiac/validation/check.hpp"
@@ -11,7 +12,9 @@ const std::vector<ValidationCase>& validation_cases() {
       {"land", "cardiac mechanics verification of Land et al. 2015, full order", validate_land},
       {"cube", "the poly-affine paper's Table 1, and the cube between no-slip platens", validate_cube},
       {"ellipsoid", "the poly-affine paper's truncated ellipsoid, zones against full order",
-       validate_ellipsoid}};
+       validate_ellipsoid},
+      {"extreme", "stiff and extreme scenes, reduced and full order: within bounds or stopped with a reason",
+       validate_extreme}};
   return cases;
 }
 

@@ -52,7 +52,7 @@ void apply_expectation(const Expectation& expectation, std::vector<Check>& check
 
 std::string validation_text(const std::vector<Check>& checks) {
   Json list = Json::array();
-  for (const Check& c : checks)
+  for (const Check& c : checks) {
     list.push_back({{"case", c.case_name},
                     {"method", c.method},
                     {"quantity", c.quantity},
@@ -64,6 +64,12 @@ std::string validation_text(const std::vector<Check>& checks) {
                     {"source", c.source},
                     {"passed", c.passed()},
                     {"wall_time_s", number(c.wall_time_s)}});
+    if (c.record)
+      list.back()["record"] = {{"steps", c.record->steps},
+                               {"newton_iterations", c.record->newton_iterations},
+                               {"cuts", c.record->cuts},
+                               {"outcome", c.record->outcome}};
+  }
   return Json{{"checks", list}, {"passed", all_passed(checks)}}.dump(2) + "\n";
 }
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,12 @@
 #include <polyaffine/mesh/tet_mesh.hpp>
 
 namespace cardiac {
+
+/// What a computation behind a check took, and how it ended.
+struct CheckRecord {
+  int steps = 0, newton_iterations = 0, cuts = 0;
+  std::string outcome;  ///< "completed", or why it stopped
+};
 
 /// One number of a validation case against its reference.
 struct Check {
@@ -23,6 +30,7 @@ struct Check {
   double high = std::numeric_limits<double>::infinity();
   std::string source;  ///< where reference and range come from
   double wall_time_s = 0;
+  std::optional<CheckRecord> record{};
 
   bool passed() const { return low <= value && value <= high; }
 };

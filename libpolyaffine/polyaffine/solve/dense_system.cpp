@@ -39,7 +39,7 @@ class DenseSystem : public LinearSystem {
     if (!K_.allFinite()) return false;
     cholesky_.compute(K_);
     positive_ = cholesky_.info() == Eigen::Success;
-    if (positive_) return true;
+    if (positive_) return smallest_pivot() > 1e-13;
     lu_.compute(Matrix(K_.selfadjointView<Eigen::Lower>()));
     return lu_.rcond() > 1e-14;  // below this no digit of the solution is left
   }
@@ -52,6 +52,12 @@ class DenseSystem : public LinearSystem {
   bool positive_definite() const override { return positive_; }
 
  private:
+  // Of what the elimination leaves of the diagonal, as a share of it: independent of the units of the
+  // unknowns.
+  double smallest_pivot() const {
+    return (cholesky_.matrixLLT().diagonal().array().square() / K_.diagonal().array()).minCoeff();
+  }
+
   Matrix K_;
   std::vector<char> fixed_;
   Eigen::LLT<Matrix> cholesky_;

@@ -194,7 +194,8 @@ NewtonReport newton(const EquilibriumProblem& problem, double load, LinearSystem
 
     equations.assemble(x, system);
     if (!system.factorise()) return stop(StopReason::singular_tangent);
-    report.indefinite |= !system.positive_definite();
+    report.unstable = !system.positive_definite();
+    report.indefinite |= report.unstable;
     const Vector r = equations.condensed(x.c, now);
     const MixedState step = equations.step(x, now, -system.solve(r));
     const bool mixed = equations.mixed();
@@ -281,6 +282,7 @@ LoadReport load_stepping(const EquilibriumProblem& problem, LinearSystem& system
     }
     ++report.steps;
     const double last_step = load - report.reached;
+    if (attempt.unstable && !report.unstable_from) report.unstable_from = load;
     path.add(load, trial);
     c = trial.c;
     report.reached = load;

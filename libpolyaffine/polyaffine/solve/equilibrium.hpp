@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,7 @@ struct NewtonReport {
   std::vector<double> residuals;  ///< relative, one an iteration and the last
   int shortened = 0;              ///< line searches that took less than the whole step
   bool indefinite = false;        ///< some tangent was not positive definite
+  bool unstable = false;          ///< the last one was not: the equilibrium is no minimum
   bool converged() const { return reason == StopReason::converged; }
 };
 
@@ -73,7 +75,8 @@ struct LoadOptions {
 
 struct LoadReport {
   StopReason reason = StopReason::converged;
-  double reached = 0;  ///< last load parameter in equilibrium
+  double reached = 0;                   ///< last load parameter in equilibrium
+  std::optional<double> unstable_from;  ///< first equilibrium that is no minimum: it need not be the only one
   int steps = 0, cuts = 0, iterations = 0;
   NewtonReport last;
   bool converged() const { return reason == StopReason::converged; }

@@ -38,6 +38,23 @@ TEST(Valve, SlopeIsTheDerivative) {
   }
 }
 
+TEST(Valve, LeaksBackwardsThroughItsLeakOnly) {
+  Valve leaking = valve;
+  leaking.leak_kPa_ms_per_mm3 = 50 * valve.resistance_kPa_ms_per_mm3;
+  const auto flow = [&](double drop_mmHg) {
+    return valve_flow(leaking, drop_mmHg * kPa_per_mmHg).flow_mm3_per_ms / flow_per_mL_per_s;
+  };
+  EXPECT_NEAR(flow(5), 500, 0.02);
+  EXPECT_NEAR(flow(-80), -160, 0.02);  // 80 mmHg / 0.5
+  const double h = 1e-6;
+  for (const double drop : {-10.0, -0.005, 0.0, 0.01, 3.0})
+    EXPECT_NEAR(
+        valve_flow(leaking, drop).slope * 2 * h /
+            (valve_flow(leaking, drop + h).flow_mm3_per_ms - valve_flow(leaking, drop - h).flow_mm3_per_ms),
+        1, 1e-6)
+        << drop;
+}
+
 TEST(Valve, CountsAsOpenUntilThePressureReallyTurns) {
   EXPECT_TRUE(is_open(valve, 1));
   EXPECT_TRUE(is_open(valve, -0.4 * kPa_per_mmHg));

@@ -1,4 +1,4 @@
-#include <chrono>
+#include <ctime>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -11,7 +11,10 @@
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+// Of this process; other work on the machine does not count.
+double processor_s() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
 
 std::vector<std::string> samples() {
   std::vector<std::string> out{kPassive, kBeat};
@@ -60,7 +63,7 @@ TEST_P(ProtocolFuzz, IsAcceptedOrRefused) {
   for (int k = 0; k < kInputs; ++k) {
     const std::string text = texts.next();
     const std::string option = options.next();
-    const auto begin = Clock::now();
+    const double begin = processor_s();
     try {
       const auto protocol = k % 4 == 0 ? parsed(text, {option}) : parsed(text);
       cardiac::plan(protocol);
@@ -72,7 +75,7 @@ TEST_P(ProtocolFuzz, IsAcceptedOrRefused) {
     } catch (const std::exception& error) {
       FAIL() << "input " << k << ": " << error.what() << "\n" << text;
     }
-    longest_s = std::max(longest_s, std::chrono::duration<double>(Clock::now() - begin).count());
+    longest_s = std::max(longest_s, processor_s() - begin);
   }
   EXPECT_GT(accepted, kInputs / 100) << "the inputs are so wrong that little is tried";
   EXPECT_LT(accepted, kInputs / 2) << "the inputs are hardly wrong";
@@ -84,7 +87,7 @@ TEST_P(ProtocolFuzz, IsAcceptedOrRefused) {
 INSTANTIATE_TEST_SUITE_P(Seeds, ProtocolFuzz, testing::Values(1, 2, 3, 4));
 
 TEST(Parse, LongInputsAreRefusedAtOnce) {
-  const auto begin = Clock::now();
+  const double begin = processor_s();
   const std::string long_word(500000, 'a');
   const auto repeated = [](const std::string& text, int times) {
     std::string out;
@@ -99,7 +102,7 @@ TEST(Parse, LongInputsAreRefusedAtOnce) {
   refusal(kPassive, {"tissue.law=" + long_word});
   EXPECT_THAT(refusal(kPassive + repeated("[[region]]\nsegments = [1]\n", 20000)),
               testing::HasSubstr("found more than 100 entries [[region]]"));
-  EXPECT_LT(std::chrono::duration<double>(Clock::now() - begin).count(), 5);
+  EXPECT_LT(processor_s() - begin, 5);
 }
 
 }  // namespace

@@ -175,6 +175,23 @@ TEST(Equilibrium, AnImpossibleLoadStopsAtTheLastEquilibriumWithAReason) {
   EXPECT_EQ(check.iterations, 0);  // it is an equilibrium already
 }
 
+TEST(Equilibrium, ABarThatMayBuckleIsToldToBeUnstable) {
+  const auto compressed = [](double stretch) {
+    Bar bar(2);
+    bar.clamp(testing::kXLow);
+    bar.hold(testing::kXHigh, 0, (stretch - 1) * kLength);  // its end may sway
+    Vector c = Vector::Zero(bar.unknowns());
+    LoadOptions options;
+    options.first_step = 1;
+    const LoadReport report = load_stepping(bar.problem, *bar.system(), c, options);
+    EXPECT_TRUE(report.converged());
+    return report.unstable_from.has_value();
+  };
+  EXPECT_FALSE(compressed(1.3));
+  EXPECT_FALSE(compressed(0.97));
+  EXPECT_TRUE(compressed(0.8));  // Euler's strain is π²/(12 · 3²) = 0.09
+}
+
 TEST(Equilibrium, AFailedNewtonLeavesItsStartAlone) {
   Bar bar(1);
   bar.clamp(testing::kXLow);

@@ -88,6 +88,25 @@ TEST(LinearSystem, SingularOrBrokenMatricesAreRefused) {
   }
 }
 
+// Two stiff springs to the ground and one between them that is softer by far; then without those to the
+// ground.
+TEST(LinearSystem, NearlySingularIsRefusedAndBadlyScaledIsNot) {
+  const auto pair = [](double ground, double between) {
+    Matrix K = Matrix::Identity(6, 6);
+    K(0, 0) = ground + between;
+    K(3, 3) = between;
+    K(3, 0) = K(0, 3) = -between;
+    return K;
+  };
+  const auto system = dense_system(6);
+  system->set_zero();
+  system->add_dense(pair(1e-15, 1));
+  EXPECT_FALSE(system->factorise());
+  system->set_zero();
+  system->add_dense(pair(1e12, 1e-12));
+  EXPECT_TRUE(system->factorise());
+}
+
 TEST(LinearSystem, OnlyDenseStorageTakesAFullMatrix) {
   const Blocks blocks;
   const Matrix one = Matrix::Identity(blocks.unknowns(), blocks.unknowns());

@@ -1,0 +1,61 @@
+#include <cardiac/validation/extreme_checks.hpp>
+
+namespace cardiac {
+namespace {
+
+void nodes(ExtremeChecks& checks, const ExtremeMesh& mesh, double full) {
+  struct Layout {
+    std::string name, rings;
+    double percent;
+  };
+  const std::vector<Layout> layouts{{"5", "[4]", 15},
+                                    {"17", "[4, 6, 6]", 8},
+                                    {"29", "[6, 8, 14]", 8},
+                                    {"120", "[12, 16, 20, 24, 24, 23]", 8}};
+  for (const char* preset : {"fast", "accurate"})
+    for (const Layout& layout : layouts) {
+      if (checks.quick() && layout.name == "120" && std::string(preset) == "accurate") continue;
+      const auto outcome =
+          checks.run("models/nodes_" + layout.name, mesh, kExtremePassive,
+                     {"reduction.ring_nodes=" + layout.rings, std::string("reduction.preset=") + preset});
+      checks.expect(outcome, std::string("cavity_ratio_") + preset, "1", outcome.cavity_ratio(),
+                    {full, full * (1 - layout.percent / 100), full * (1 + layout.percent / 100),
+                     "full order on the same mesh"});
+    }
+  checks.expect_refusal(checks.run("models/nodes_1", mesh, kExtremePassive, {"reduction.ring_nodes=[]"}),
+                        "expected at least one ring");
+  const auto near =
+      checks.run("models/coincident_nodes", mesh, kExtremePassive,
+                 {"reduction.ring_nodes=[6, 6, 6]", "reduction.ring_positions=[0.5, 0.5001, 0.8]"});
+  checks.expect_or_stop(near, "cavity_ratio", "1", near.cavity_ratio(),
+                        {full, 0.85 * full, 1.15 * full, "full order on the same mesh"});
+  const auto tiny = checks.run("models/regions_of_two_tets", checks.wall(), kExtremePassive,
+                               {"reduction.ring_nodes=[12, 20, 24, 20]"});
+  checks.expect_or_stop(tiny, "cavity_ratio", "1", tiny.cavity_ratio(),
+                        {full, 0.8 * full, 1.2 * full, "full order"});
+}
+
+void weights(ExtremeChecks& checks, const ExtremeMesh& mesh, double full) {
+  for (const char* slope : {"0.5", "2.25", "20"}) {
+    if (checks.quick() && std::string(slope) == "2.25") continue;
+    const auto outcome =
+        checks.run(std::string("models/sigmoid_") + slope, mesh, kExtremePassive,
+                   {"reduction.weights=sigmoid", std::string("reduction.sigmoid_slope=") + slope});
+    checks.expect_or_stop(outcome, "cavity_ratio", "1", outcome.cavity_ratio(),
+                          {full, 0.5 * full, 1.5 * full, "full order on the same mesh"});
+  }
+}
+
+}  // namespace
+
+void extreme_models(ExtremeChecks& checks) {
+  const ExtremeMesh mesh = extreme_mesh({12, 24, 2});
+  const double full = checks.run("models/full_order", mesh, kExtremePassive, full_order({})).cavity_ratio();
+  nodes(checks, mesh, full);
+  weights(checks, mesh, full);
+  checks.expect_refusal(checks.run("models/more_nodes_than_tets", extreme_mesh({3, 6, 1}), kExtremePassive,
+                                   {"reduction.ring_nodes=[24, 24, 24, 24, 24, 24]"}),
+                        "no tet lies in the region");
+}
+
+}  // namespace cardiac

@@ -1,0 +1,53 @@
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include <cardiac/validation/extreme_checks.hpp>
+
+namespace cardiac {
+namespace {
+
+ExtremeOutcome beat(const ExtremeChecks& checks, double tolerance) {
+  const auto setting = [](const std::string& key, double value) {
+    std::ostringstream out;
+    out << "time." << key << '=' << value;
+    return out.str();
+  };
+  std::ostringstream name;
+  name << "tolerances/" << tolerance;
+  return checks.run(
+      name.str(), checks.wall(), kExtremeBeat,
+      {setting("relative_tolerance", tolerance), setting("absolute_tolerance_mm", 10 * tolerance),
+       setting("absolute_tolerance_mmHg", 100 * tolerance)});
+}
+
+// Largest difference of the volume at the output times, over the stroke volume.
+double difference(const HeartPath& path, const HeartPath& reference) {
+  double out = path.outputs.size() == reference.outputs.size() ? 0 : HUGE_VAL;
+  for (std::size_t k = 0; k < std::min(path.outputs.size(), reference.outputs.size()); ++k)
+    out = std::max(out, std::abs(path.outputs[k].volume_mm3 - reference.outputs[k].volume_mm3));
+  return out / reference.stroke_volumes_mm3.back();
+}
+
+}  // namespace
+
+void extreme_tolerances(ExtremeChecks& checks) {
+  const std::vector<double> tolerances = checks.quick()
+                                             ? std::vector<double>{1e-2, 1e-4}
+                                             : std::vector<double>{1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
+  const ExtremeOutcome reference = beat(checks, tolerances.back() / 10);
+  double first = 0, last = 0;
+  ExtremeOutcome finest;
+  for (const double tolerance : tolerances) {
+    finest = beat(checks, tolerance);
+    last = reference.completed() && finest.completed() ? difference(finest.path, reference.path) : HUGE_VAL;
+    if (first == 0) first = last;
+    checks.expect(finest, "volume_error_over_stroke", "1", last,
+                  {0, 0, 30 * tolerance, "against a tenth of the smallest tolerance"});
+  }
+  checks.expect(finest, "order_in_the_tolerance", "1",
+                std::log(first / last) / std::log(tolerances.front() / tolerances.back()),
+                {1, 0.7, 1.5, "error proportional to the tolerance: Hindmarsh et al. 2005"});
+}
+
+}  // namespace cardiac
