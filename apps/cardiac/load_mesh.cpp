@@ -4,6 +4,7 @@
 
 #include <polyaffine/core/error.hpp>
 
+#include "biventricle_mesh.hpp"
 #include "ellipsoid_mesh.hpp"
 #include "read_heart.hpp"
 
@@ -30,6 +31,10 @@ polyaffine::TetMesh read(const Protocol& protocol, std::vector<std::string>& war
 }
 
 polyaffine::TetMesh generate(const Protocol& protocol) {
+  if (*protocol.mesh.shape == protocol::Shape::human_biventricle) {
+    const IdealisedBiventricle shape = human_biventricle();
+    return mesh_biventricle(shape, protocol.mesh.size_mm.value_or(default_mesh_size_mm(shape)));
+  }
   const bool human = *protocol.mesh.shape == protocol::Shape::human_lv;
   const TruncatedEllipsoid shape = human ? human_lv() : land_ellipsoid();
   return mesh_truncated_ellipsoid(shape, protocol.mesh.size_mm.value_or(default_mesh_size_mm(shape)));

@@ -2,13 +2,18 @@
 
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <optional>
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/mesh/quality.hpp>
 #include <polyaffine/mesh/surface.hpp>
 #include <string>
+#include <vector>
 
+#include <cardiac/core/units.hpp>
+
+#include "biventricle_mesh.hpp"
 #include "ellipsoid_mesh.hpp"
 #include "import_command.hpp"
 #include "output_file.hpp"
@@ -42,22 +47,54 @@ TruncatedEllipsoid chosen_shape(const EllipsoidOptions& o) {
   return shape;
 }
 
-void print_summary(const TruncatedEllipsoid& shape, const TetMesh& mesh) {
-  constexpr double kMm3PerMl = 1000;
-  const auto quality = polyaffine::mesh_quality(mesh);
-  const polyaffine::EnclosedVolume cavity(mesh, {kEndocardium});
+struct NamedSurface {
+  int label;
+  const char* name;
+};
+
+void print_counts(const TetMesh& mesh, const std::vector<NamedSurface>& surfaces) {
   std::cout << "tets                 " << mesh.num_tets() << "\nvertices             " << mesh.num_points()
-            << "\nboundary triangles   " << mesh.boundary().cols() << " (endocardium "
-            << mesh.surface({kEndocardium}).cols() << ", epicardium " << mesh.surface({kEpicardium}).cols()
-            << ", base " << mesh.surface({kBase}).cols() << ")\ncavity_volume_mL     "
-            << cavity.value(mesh.points()) / kMm3PerMl << " (exact shape "
-            << exact_cavity_volume(shape) / kMm3PerMl << ")\nwall_volume_mL       "
-            << mesh.volume() / kMm3PerMl << " (exact shape " << exact_wall_volume(shape) / kMm3PerMl
-            << ")\nedge_length_mm       " << quality.min_edge_mm << " to " << quality.max_edge_mm << ", mean "
+            << "\nboundary triangles   " << mesh.boundary().cols();
+  const char* between = " (";
+  for (const NamedSurface& s : surfaces) {
+    std::cout << between << s.name << ' ' << mesh.surface({s.label}).cols();
+    between = ", ";
+  }
+  std::cout << ")\n";
+}
+
+void print_quality(const TetMesh& mesh) {
+  const auto quality = polyaffine::mesh_quality(mesh);
+  std::cout << "edge_length_mm       " << quality.min_edge_mm << " to " << quality.max_edge_mm << ", mean "
             << quality.mean_edge_mm << "\ndihedral_angle_deg   " << quality.min_dihedral_deg << " to "
             << quality.max_dihedral_deg << "\nradius_ratio         " << quality.min_radius_ratio
             << " at worst, mean " << quality.mean_radius_ratio << "\naspect_ratio         "
             << quality.max_aspect_ratio << " at worst, mean " << quality.mean_aspect_ratio << '\n';
+}
+
+double cavity_mL(const TetMesh& mesh, int label) {
+  return polyaffine::EnclosedVolume(mesh, {label}).value(mesh.points()) / mm3_per_mL;
+}
+
+void print_summary(const TruncatedEllipsoid& shape, const TetMesh& mesh) {
+  print_counts(mesh, {{kEndocardium, "endocardium"}, {kEpicardium, "epicardium"}, {kBase, "base"}});
+  std::cout << "cavity_volume_mL     " << cavity_mL(mesh, kEndocardium) << " (exact shape "
+            << exact_cavity_volume(shape) / mm3_per_mL << ")\nwall_volume_mL       "
+            << mesh.volume() / mm3_per_mL << " (exact shape " << exact_wall_volume(shape) / mm3_per_mL
+            << ")\n";
+  print_quality(mesh);
+}
+
+void print_biventricle(const TetMesh& mesh) {
+  print_counts(
+      mesh, {{kEndocardium, "lv_endo"}, {kRvEndocardium, "rv_endo"}, {kEpicardium, "epi"}, {kBase, "base"}});
+  std::map<int, double> wall_mm3;
+  for (int t = 0; t < mesh.num_tets(); ++t) wall_mm3[mesh.regions()[t]] += mesh.tet_volume(t);
+  std::cout << "cavity_volume_mL     lv " << cavity_mL(mesh, kEndocardium) << ", rv "
+            << cavity_mL(mesh, kRvEndocardium) << "\nwall_volume_mL       lv "
+            << wall_mm3[kLvWall] / mm3_per_mL << ", rv " << wall_mm3[kRvWall] / mm3_per_mL << ", septum "
+            << wall_mm3[kSeptum] / mm3_per_mL << '\n';
+  print_quality(mesh);
 }
 
 void write_mesh([[maybe_unused]] const std::filesystem::path& out, [[maybe_unused]] const TetMesh& mesh) {
@@ -78,12 +115,29 @@ void run_ellipsoid(const EllipsoidOptions& o) {
   std::cout << "written              " << o.out.string() << '\n';
 }
 
+struct BiventricleOptions {
+  std::optional<double> size_mm;
+  std::filesystem::path out;
+};
+
+void run_biventricle(const BiventricleOptions& o) {
+#ifndef CARDIAC_WITH_VTK
+  throw InputError("cardiac mesh: this build was made without VTK (CMake option POLYAFFINE_WITH_VTK)");
+#endif
+  check_output_file(o.out, ".vtu");
+  const IdealisedBiventricle shape = human_biventricle();
+  const TetMesh mesh = mesh_biventricle(shape, o.size_mm.value_or(default_mesh_size_mm(shape)));
+  write_mesh(o.out, mesh);
+  print_biventricle(mesh);
+  std::cout << "written              " << o.out.string() << '\n';
+}
+
 }  // namespace
 
 void add_mesh_command(CLI::App& app) {
   CLI::App* mesh = app.add_subcommand("mesh",
                                       "Make a mesh with labelled surfaces (1 endocardium, 2 epicardium, "
-                                      "3 base)");
+                                      "3 base, 4 right endocardium)");
   mesh->require_subcommand(1);
   CLI::App* ellipsoid = mesh->add_subcommand(
       "ellipsoid", "Idealised left ventricle between two truncated ellipsoids, apex towards −z");
@@ -99,6 +153,14 @@ void add_mesh_command(CLI::App& app) {
   ellipsoid->add_option("--base-z", options->base_z_mm, "height of the base plane above the centre, mm");
   ellipsoid->add_option("--out", options->out, "file to write, .vtu, lengths in mm")->required();
   ellipsoid->callback([options] { run_ellipsoid(*options); });
+  CLI::App* biventricle = mesh->add_subcommand(
+      "biventricle",
+      "Idealised left and right ventricle of human size, apex towards −z, right ventricle towards +x");
+  const auto both = std::make_shared<BiventricleOptions>();
+  biventricle->add_option("--size", both->size_mm,
+                          "edge length aimed at, mm (default: 1.1 of the right wall)");
+  biventricle->add_option("--out", both->out, "file to write, .vtu, lengths in mm")->required();
+  biventricle->callback([both] { run_biventricle(*both); });
   add_import_command(*mesh);
 }
 

@@ -110,10 +110,11 @@ void print_result(const BeatResult& result, const std::filesystem::path& out) {
     if (!result.has_beat || !result.completed) continue;
     std::cout << v.name << ": EDV " << v.edv_mL << " mL, ESV " << v.esv_mL << " mL, EF " << v.ef_percent
               << " %, peak pressure " << v.peak_pressure_mmHg << " mmHg, EDP " << v.edp_mmHg << " mmHg\n";
+  }
+  if (result.has_beat && result.completed)
     std::cout << "strain at end systole: GLS " << result.strain.gls_percent << " %, GCS "
               << result.strain.gcs_percent << " %, GRS " << result.strain.grs_percent << " %, twist "
               << result.strain.twist_deg << " deg\n";
-  }
   for (const VerificationInstant& v : result.verification)
     std::cout << "against full order at " << v.instant << ": displacement " << v.displacement_error_percent
               << " %, volume " << v.volume_error_percent << " %, segment strain " << std::setprecision(3)

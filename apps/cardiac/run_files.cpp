@@ -19,11 +19,11 @@ using polyaffine::Vec4;
 namespace {
 
 Matrix tet_fibres(const Ventricle& ventricle, const protocol::Fibres& fibres) {
-  const HelixAngles angles{fibres.endo_angle_deg, fibres.epi_angle_deg, fibres.sheet_angle_deg};
+  const HelixAngles angles = helix_angles(fibres);
   Matrix out(3, ventricle.anatomy->mesh.num_tets());
   for (Eigen::Index t = 0; t < out.cols(); ++t)
     out.col(t) =
-        helix_axes(ventricle.anatomy->coordinates->sample(static_cast<int>(t), Vec4::Constant(0.25)), angles)
+        wall_fibres(*ventricle.anatomy->coordinates, static_cast<int>(t), Vec4::Constant(0.25), angles)
             .col(0);
   return out;
 }

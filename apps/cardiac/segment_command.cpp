@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <cardiac/anatomy/control_nodes.hpp>
+#include <cardiac/anatomy/right_ventricle.hpp>
 #include <cardiac/core/units.hpp>
 #include <cardiac/fibres/helix.hpp>
 #include <cardiac/heart/discretisation.hpp>
@@ -53,12 +54,10 @@ protocol::Vector3 direction(const char* option, const std::vector<double>& v) {
   return {d.x(), d.y(), d.z()};
 }
 
-void check_scheme(const std::string& scheme) {
-  if (scheme == "aha29")
-    throw InputError(
-        "--scheme: found aha29, which divides two ventricles and is not supported for the mesh of a left "
-        "ventricle; expected aha17");
-  if (scheme != "aha17") throw InputError("--scheme: found \"" + scheme + "\", expected aha17");
+protocol::Scheme scheme(const std::string& word) {
+  if (word == "aha17") return protocol::Scheme::aha17;
+  if (word == "aha29") return protocol::Scheme::aha29;
+  throw InputError("--scheme: found \"" + word + "\", expected aha17 or aha29");
 }
 
 // The tables [mesh] and [anatomy] of a protocol, from the options.
@@ -72,6 +71,7 @@ Protocol as_protocol(const SegmentOptions& o) {
   protocol.mesh.epi_label = given_labels(o.labels.epi);
   protocol.mesh.base_label = given_labels(o.labels.base);
   protocol.mesh.rv_endo_label = given_labels(o.labels.rv_endo);
+  protocol.anatomy.scheme = scheme(o.scheme);
   protocol.anatomy.anterior_direction = direction("--anterior", o.anterior);
   if (!o.long_axis.empty()) protocol.anatomy.long_axis = direction("--long-axis", o.long_axis);
   return protocol;
@@ -86,29 +86,34 @@ polyaffine::WriteFields fields(const Anatomy& anatomy, const std::vector<Control
   const int tets = mesh.num_tets();
   std::vector<int> all(tets);
   for (int t = 0; t < tets; ++t) all[t] = t;
-  const auto centres = Eigen::Matrix4Xd::Constant(4, tets, 0.25).eval();
+  const FibreAxes fibres = helix_fibres(coordinates, all, Eigen::Matrix4Xd::Constant(4, tets, 0.25), angles);
   out.cell_fields["segment"] =
       Eigen::Map<const Eigen::RowVectorXi>(anatomy.segment.data(), tets).cast<double>();
-  out.cell_fields["fibre"] = helix_fibres(coordinates, all, centres, angles).topRows(3);
+  out.cell_fields["fibre"] = fibres.topRows(3);
+  out.cell_fields["sheet"] = fibres.middleRows(3, 3);
+  out.cell_fields["normal"] = fibres.bottomRows(3);
   Matrix& node = out.cell_fields["control_node"] = Matrix::Zero(1, tets);
   for (std::size_t i = 0; i < nodes.size(); ++i) node(0, nodes[i].tet) = static_cast<double>(i + 1);
 
   const int points = mesh.num_points();
-  const Matrix axes = coordinates.axes().leftCols(points);
-  out.point_fields["apicobasal"] = coordinates.apicobasal().head(points).transpose();
-  out.point_fields["transmural"] = coordinates.transmural().head(points).transpose();
-  out.point_fields["e_l"] = axes.topRows(3);
-  out.point_fields["e_c"] = axes.middleRows(3, 3);
-  out.point_fields["e_r"] = axes.bottomRows(3);
-  Matrix& angle = out.point_fields["rotational_rad"] = Matrix(1, points);
-  Matrix& fibre = out.point_fields["fibre"] = Matrix(3, points);
-  for (int p = 0; p < points; ++p) {
-    CoordinateSample at;
-    at.t = coordinates.transmural()[p];
-    at.Q = axes.col(p).reshaped(3, 3);
-    angle(0, p) = coordinates.angle(mesh.points().col(p));
-    fibre.col(p) = helix_axes(at, angles).col(0);
-  }
+  for (const char* name : {"apicobasal", "transmural", "rotational_rad", "transventricular"})
+    out.point_fields[name] = Matrix(1, points);
+  for (const char* name : {"e_l", "e_c", "e_r", "fibre"}) out.point_fields[name] = Matrix(3, points);
+  for (int t = 0; t < tets; ++t)
+    for (int k = 0; k < 4; ++k) {
+      const int p = mesh.tets()(k, t);
+      const polyaffine::Vec4 corner = polyaffine::Vec4::Unit(k);
+      const CoordinateSample at = coordinates.wall_sample(t, corner);
+      const polyaffine::Mat3 axes = orthonormal_axes(at);
+      out.point_fields["apicobasal"](0, p) = at.u;
+      out.point_fields["transmural"](0, p) = at.t;
+      out.point_fields["rotational_rad"](0, p) = at.psi;
+      out.point_fields["transventricular"](0, p) = at.w;
+      out.point_fields["e_l"].col(p) = axes.col(0);
+      out.point_fields["e_c"].col(p) = axes.col(1);
+      out.point_fields["e_r"].col(p) = axes.col(2);
+      out.point_fields["fibre"].col(p) = wall_fibres(coordinates, t, corner, angles).col(0);
+    }
   return out;
 }
 
@@ -122,27 +127,30 @@ void write_fields(const SegmentOptions&, const Anatomy&, const std::vector<Contr
 #endif
 
 void print_segments(const Anatomy& anatomy, const std::vector<ControlNode>& nodes) {
-  const auto volumes = segment_volumes(anatomy.mesh, anatomy.segment);
-  const polyaffine::EnclosedVolume cavity(anatomy.mesh, {anatomy.labels.endo});
-  std::cout << "segment  name                 volume_mL   tets  node_x_mm  node_y_mm  node_z_mm\n"
+  const int count = num_segments(*anatomy.coordinates);
+  const auto volumes = segment_volumes(anatomy.mesh, anatomy.segment, count);
+  std::cout << "segment  name                     volume_mL   tets  node_x_mm  node_y_mm  node_z_mm\n"
             << std::fixed;
-  for (int s = 1; s <= kAhaSegments; ++s) {
+  for (int s = 1; s <= count; ++s) {
     const polyaffine::Vec3& X = nodes[s - 1].position;
-    std::cout << std::setw(7) << s << "  " << std::left << std::setw(19) << aha_name(s) << std::right
+    std::cout << std::setw(7) << s << "  " << std::left << std::setw(23) << aha_name(s) << std::right
               << std::setprecision(4) << std::setw(11) << volumes[s - 1] / mm3_per_mL << std::setw(7)
               << std::count(anatomy.segment.begin(), anatomy.segment.end(), s) << std::setprecision(2)
               << std::setw(11) << X.x() << std::setw(11) << X.y() << std::setw(11) << X.z() << '\n';
   }
+  const auto cavity_mL = [&](int label) {
+    return polyaffine::EnclosedVolume(anatomy.mesh, {label}).value(anatomy.mesh.points()) / mm3_per_mL;
+  };
   std::cout << std::setprecision(4) << "wall    " << anatomy.mesh.volume() / mm3_per_mL << " mL in "
-            << anatomy.mesh.num_tets() << " tets\ncavity  "
-            << cavity.value(anatomy.mesh.points()) / mm3_per_mL << " mL\n";
+            << anatomy.mesh.num_tets() << " tets\ncavity  " << cavity_mL(anatomy.labels.endo) << " mL\n";
+  if (anatomy.labels.rv_endo) std::cout << "right cavity  " << cavity_mL(*anatomy.labels.rv_endo) << " mL\n";
 }
 
 void segment(const SegmentOptions& o) {
-  check_scheme(o.scheme);
+  const Protocol protocol = as_protocol(o);
   check_output_file(o.out, ".vtu");
   std::vector<std::string> warnings;
-  const Anatomy anatomy = load_anatomy(as_protocol(o), warnings);
+  const Anatomy anatomy = load_anatomy(protocol, warnings);
   for (const std::string& text : warnings) std::cerr << "cardiac: warning: " << text << '\n';
   const auto nodes =
       control_nodes(anatomy.mesh, *anatomy.coordinates, frame_layout(anatomy.mesh, *anatomy.coordinates));
@@ -158,7 +166,7 @@ void add_segment_command(CLI::App& app) {
       "segment", "Divide a ventricle mesh: coordinates, AHA segments, control nodes and fibres as fields");
   const auto o = std::make_shared<SegmentOptions>();
   command->add_option("MESH", o->mesh, "tetrahedral mesh (.vtu, .vtk, .msh, .pts)")->required();
-  command->add_option("--scheme", o->scheme, "aha17 (left ventricle)")->required();
+  command->add_option("--scheme", o->scheme, "aha17 (left ventricle) or aha29 (two ventricles)")->required();
   command->add_option("--length-unit", o->length_unit, "length unit of the mesh: mm, cm, m or um")
       ->required();
   command->add_option("--out", o->out, "file to write, .vtu, lengths in mm")->required();
@@ -175,6 +183,13 @@ void add_segment_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--epi-angle", o->angles.epi_deg, "helix angle at the epicardium, deg")
       ->check(angle)
+      ->capture_default_str();
+  const CLI::Range turn(-180.0, 180.0);
+  command->add_option("--rv-endo-angle", o->angles.rv_endo_deg, "the same of the right free wall, deg")
+      ->check(turn)
+      ->capture_default_str();
+  command->add_option("--rv-epi-angle", o->angles.rv_epi_deg, "the same of the right free wall, deg")
+      ->check(turn)
       ->capture_default_str();
   command->callback([o] { segment(*o); });
 }

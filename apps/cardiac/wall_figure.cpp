@@ -40,6 +40,8 @@ Figure wall_figure(const Ventricle& ventricle, const Protocol& protocol, const H
   WallPanel after = panel(key.es, beat ? "end systole" : "end");
   const auto [ed_ms, es_ms] = cardiac_times(result);
   const std::vector<SegmentPeaks> peaks = strain_peaks(result.instants, ed_ms, es_ms);
+  before.values.resize(peaks.size());
+  after.values.resize(peaks.size());
   for (std::size_t s = 0; s < peaks.size(); ++s) {
     before.values.at(s) = 0;
     after.values.at(s) = 100 * peaks[s].circumferential.end_systolic;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include <cardiac/anatomy/right_ventricle.hpp>
 #include <cardiac/fibres/helix.hpp>
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/geometry/locate.hpp>
@@ -29,7 +30,7 @@ ControlNode find(const polyaffine::TetMesh& mesh, const VentricularCoordinates& 
   ControlNode node;
   double least = std::numeric_limits<double>::infinity();
   for (int t = 0; t < mesh.num_tets(); ++t)
-    if (const double d = mismatch(centres[t], u, psi).norm(); d < least) {
+    if (const double d = mismatch(centres[t], u, psi).norm(); d < least && centres[t].w < 0.5) {
       least = d;
       node.tet = t;
     }
@@ -56,6 +57,28 @@ ControlNode find(const polyaffine::TetMesh& mesh, const VentricularCoordinates& 
   return best;
 }
 
+// The centre of the tet of the right free wall that comes closest to mid-wall at (u, ψ).
+ControlNode find_right(const polyaffine::TetMesh& mesh, const VentricularCoordinates& coordinates, double u,
+                       double psi) {
+  const RightVentricularCoordinates& right = *coordinates.right();
+  ControlNode node;
+  node.barycentric = Vec4::Constant(0.25);
+  double least = std::numeric_limits<double>::infinity();
+  for (int t = 0; t < mesh.num_tets(); ++t) {
+    if (right.border(t, node.barycentric).share < 1) continue;
+    const CoordinateSample left = coordinates.sample(t, node.barycentric);
+    const auto at = right.sample(t, node.barycentric);
+    const Vec3 away((left.u - u) / left.grad_u.norm(), (at.psi - psi) / at.grad_psi.norm(),
+                    (at.t - 0.5) / at.grad_t.norm());
+    if (away.norm() >= least) continue;
+    least = away.norm();
+    node.tet = t;
+  }
+  node.position = coordinates.position(node.tet, node.barycentric);
+  node.axes = orthonormal_axes(coordinates.wall_sample(node.tet, node.barycentric));
+  return node;
+}
+
 }  // namespace
 
 std::vector<ControlNode> control_nodes(const polyaffine::TetMesh& mesh,
@@ -73,6 +96,9 @@ std::vector<ControlNode> control_nodes(const polyaffine::TetMesh& mesh,
   cap.position = cap_node_position(coordinates, layout);
   cap.axes = cap_axes(coordinates);
   nodes.push_back(cap);
+  for (auto row = layout.right.rbegin(); row != layout.right.rend(); ++row)
+    for (int j = 0; j < row->nodes; ++j)
+      nodes.push_back(find_right(mesh, coordinates, row->u, row->node_psi(j)));
   return nodes;
 }
 

@@ -16,8 +16,8 @@ struct ControlNode {
 };
 
 /// One node a frame, in the layout's order: in the middle of the wall at its ring and angle (the point of the
-/// mesh that comes closest); that of the cap on the long axis, with the axes of the cap's frame. In AHA's
-/// layout index 0 is segment 1.
+/// mesh that comes closest, in the right free wall the centre of the closest tet); that of the cap on the
+/// long axis, with the axes of the cap's frame. In AHA's layout index 0 is segment 1.
 std::vector<ControlNode> control_nodes(const polyaffine::TetMesh& mesh,
                                        const VentricularCoordinates& coordinates, const FrameLayout& layout);
 

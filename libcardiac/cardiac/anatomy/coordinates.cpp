@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include <cardiac/anatomy/right_ventricle.hpp>
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/geometry/laplace.hpp>
 #include <polyaffine/mesh/surface.hpp>
@@ -54,6 +55,12 @@ std::string text(const Vec3& v) {
   return out.str();
 }
 
+// Of the mean depth gradient of the left wall: what the even depth and the arc length get where the wall is
+// not the left one.
+constexpr double kOffWall = 0.1;
+// Length of the mean normal of a base from which it counts as flat.
+constexpr double kFlat = 0.999;
+
 // The one open edge of the endocardium, which must run along the base.
 std::vector<int> cavity_rim(const polyaffine::TetMesh& mesh, const SurfaceLabels& labels) {
   const auto loops = polyaffine::rim_loops(mesh.surface({labels.endo}));
@@ -69,28 +76,18 @@ std::vector<int> cavity_rim(const polyaffine::TetMesh& mesh, const SurfaceLabels
   return loops.front();
 }
 
+// The mean normal of a surface: of unit length where it is flat.
 Vec3 mean_normal(const polyaffine::TetMesh& mesh, int label) {
   Vec3 sum = Vec3::Zero();
+  double area = 0;
   const polyaffine::Triangles faces = mesh.surface({label});
   for (Eigen::Index f = 0; f < faces.cols(); ++f) {
     const Vec3 a = mesh.points().col(faces(0, f));
-    sum += (mesh.points().col(faces(1, f)) - a).cross(mesh.points().col(faces(2, f)) - a);
+    const Vec3 normal = (mesh.points().col(faces(1, f)) - a).cross(mesh.points().col(faces(2, f)) - a);
+    sum += normal;
+    area += normal.norm();
   }
-  return sum.normalized();
-}
-
-// Middle of a closed line by its length: vertices that crowd on one side do not draw it
-// there.
-Vec3 rim_centre(const polyaffine::TetMesh& mesh, const std::vector<int>& rim) {
-  Vec3 sum = Vec3::Zero();
-  double length = 0;
-  for (std::size_t k = 0; k < rim.size(); ++k) {
-    const Vec3 a = mesh.points().col(rim[k]);
-    const Vec3 b = mesh.points().col(rim[(k + 1) % rim.size()]);
-    sum += (b - a).norm() * (a + b) / 2;
-    length += (b - a).norm();
-  }
-  return sum / length;
+  return sum / area;
 }
 
 }  // namespace
@@ -100,27 +97,79 @@ VentricularCoordinates::VentricularCoordinates(const polyaffine::TetMesh& mesh, 
   require_label(mesh, labels.endo, "endo");
   require_label(mesh, labels.epi, "epi");
   require_label(mesh, labels.base, "base");
+  if (labels.rv_endo) require_label(mesh, *labels.rv_endo, "rv_endo");
   find_axis(mesh, labels, options);
   space_ = std::make_shared<polyaffine::LagrangeBasis>(
       mesh, 2, options.midpoints ? *options.midpoints : polyaffine::smooth_midpoints(mesh));
+  if (labels.rv_endo) right_ = std::make_shared<RightVentricularCoordinates>(mesh, labels, space_);
   solve_transmural(mesh, labels);
+  if (right_)
+    find_insertions(mesh);
+  else
+    orient(options.anterior);
   solve_apicobasal(mesh, labels);
+  if (right_) right_->settle(mesh, labels, axis_, anterior_);
 }
 
 void VentricularCoordinates::find_axis(const polyaffine::TetMesh& mesh, const SurfaceLabels& labels,
                                        const AnatomyOptions& options) {
-  axis_ = options.long_axis ? options.long_axis->normalized() : mean_normal(mesh, labels.base);
-  base_centre_ = rim_centre(mesh, cavity_rim(mesh, labels));
+  cavity_rim(mesh, labels);
+  base_centre_ = rim_centre(mesh, labels.endo, labels.base);
+  const Vec3 normal = mean_normal(mesh, labels.base);
+  if (options.long_axis)
+    axis_ = options.long_axis->normalized();
+  else
+    axis_ =
+        normal.norm() > kFlat ? normal.normalized() : cavity_axis(mesh, labels.endo, base_centre_).direction;
   for (const int p : mesh.surface_points({labels.endo}))
     cavity_length_ = std::max(cavity_length_, -axis_.dot(mesh.points().col(p) - base_centre_));
+}
 
-  const Vec3 across = options.anterior - options.anterior.dot(axis_) * axis_;
-  if (!(across.norm() > 0.05 * options.anterior.norm()))  // about 3°: below it the direction says nothing
-    throw InputError("anterior direction (anatomy.anterior_direction, --anterior): found " +
-                     text(options.anterior) + ", parallel to the long axis " + text(axis_) +
-                     ", expected a direction across it");
+void VentricularCoordinates::orient(const Vec3& anterior) {
+  const Vec3 across = anterior - anterior.dot(axis_) * axis_;
+  if (!(across.norm() > 0.05 * anterior.norm()))  // about 3°: below it the direction says nothing
+    throw InputError("anterior direction (anatomy.anterior_direction, --anterior): found " + text(anterior) +
+                     ", parallel to the long axis " + text(axis_) + ", expected a direction across it");
   anterior_ = across.normalized();
   septal_ = -axis_.cross(anterior_);
+}
+
+void VentricularCoordinates::find_insertions(const polyaffine::TetMesh& mesh) {
+  orient(axis_.unitOrthogonal());
+  std::vector<double> angle, weight;
+  double whole = 0;
+  for (int t = 0; t < mesh.num_tets(); ++t) {
+    const Vec4 centre = Vec4::Constant(0.25);
+    const Vec3 X = mesh.tet_centroid(t);
+    const double h = long_axis_height(X);
+    if (h < 1.0 / 3 || h > 1 || right_->border(t, centre).w > 0.5) continue;
+    const auto s = space_->sample(t, centre);
+    const Vec3 d = from_axis(X);
+    const double share = mesh.tet_volume(t) *
+                         std::abs(axis_.cross(d).dot(axis_.cross(s.gradient * t_(s.functions)))) /
+                         d.squaredNorm();
+    whole += share;
+    if (right_->septal(t, centre) <= 0) continue;
+    angle.push_back(plain_angle(X));
+    weight.push_back(share);
+  }
+  const Arc septum = arc_of(angle, weight, whole);
+  const double half = septum.half_width;
+  if (!(half > 0 && half < 0.9 * polyaffine::kPi))
+    throw InputError("septum: found " + std::to_string(2 * half * 180 / polyaffine::kPi) +
+                     " degrees of the left ventricle between the two endocardia, expected more than 0 and "
+                     "less than 324; are lv_endo and rv_endo swapped?");
+  orient(axis_.cross(std::cos(septum.middle) * anterior_ + std::sin(septum.middle) * septal_));
+
+  const double quarter = (polyaffine::kPi - half) / 2;
+  std::vector<double> from, to;
+  for (int turn = -2; turn <= 1; ++turn)
+    for (int k = 0; k < 6; ++k) {  // anterior insertion, middle of the septum, inferior insertion, the rest
+      const double at = k < 3 ? (k - 1) * half : half + (k - 2) * quarter;
+      from.push_back(polyaffine::kPi / 2 + at + turn * 2 * polyaffine::kPi);
+      to.push_back(polyaffine::kPi / 6 + k * polyaffine::kPi / 3 + turn * 2 * polyaffine::kPi);
+    }
+  stretch_.emplace(from, to);
 }
 
 Vec3 VentricularCoordinates::from_axis(const Vec3& X) const {
@@ -132,13 +181,23 @@ void VentricularCoordinates::solve_transmural(const polyaffine::TetMesh& mesh, c
   std::vector<polyaffine::NodeValue> values;
   for (const int n : space_->surface_nodes(mesh, {labels.endo})) values.push_back({n, 0.0});
   for (const int n : space_->surface_nodes(mesh, {labels.epi})) values.push_back({n, 1.0});
+  if (right_)
+    for (const int n : space_->surface_nodes(mesh, {*labels.rv_endo})) values.push_back({n, 1.0});
   const Vector harmonic = polyaffine::solve_laplace(*space_, values);
   const polyaffine::WallPoints points = space_->wall_points(3);
+  Vector steepness(points.weights.size());
+  Vector left = points.weights;  // zero beyond the left wall and the septum
+  for (Eigen::Index q = 0; q < steepness.size(); ++q) {
+    const auto s = space_->sample(points.tet[q], points.barycentric.col(q));
+    steepness[q] = (s.gradient * harmonic(s.functions)).norm();
+    if (right_ && s.N.dot(right_->transventricular()(s.functions)) > 0.5) left[q] = 0;
+  }
+  if (right_) least_steepness_ = kOffWall * left.dot(steepness) / left.sum();
   t_ = polyaffine::solve_diffusion(
       *space_, points,
       [&](std::size_t q) {
-        const auto s = space_->sample(points.tet[q], points.barycentric.col(static_cast<Eigen::Index>(q)));
-        return polyaffine::DiffusionPoint{(s.gradient * harmonic(s.functions)).norm() * Mat3::Identity()};
+        return polyaffine::DiffusionPoint{
+            std::max(steepness[static_cast<Eigen::Index>(q)], least_steepness_) * Mat3::Identity()};
       },
       values);
   Points X(3, points.barycentric.cols()), gradient(3, X.cols());
@@ -147,7 +206,10 @@ void VentricularCoordinates::solve_transmural(const polyaffine::TetMesh& mesh, c
     X.col(q) = space_->nodes()(Eigen::all, s.functions) * s.N;
     gradient.col(q) = s.gradient * t_(s.functions);
   }
-  radial_.emplace(X, gradient, points.weights, kRadialDegree);
+  std::vector<Eigen::Index> inside;
+  for (Eigen::Index q = 0; q < left.size(); ++q)
+    if (left[q] > 0) inside.push_back(q);
+  radial_.emplace(X(Eigen::all, inside), gradient(Eigen::all, inside), left(inside), kRadialDegree);
 }
 
 void VentricularCoordinates::solve_apicobasal(const polyaffine::TetMesh& mesh, const SurfaceLabels& labels) {
@@ -162,8 +224,8 @@ void VentricularCoordinates::solve_apicobasal(const polyaffine::TetMesh& mesh, c
         const auto s = space_->sample(points.tet[q], points.barycentric.col(k));
         const Vec3 d = from_axis(space_->nodes()(Eigen::all, s.functions) * s.N);
         const double r = d.norm();
-        return polyaffine::DiffusionPoint{(s.gradient * t_(s.functions)).norm() / r * Mat3::Identity(), r,
-                                          d / r};
+        const double steepness = std::max((s.gradient * t_(s.functions)).norm(), least_steepness_);
+        return polyaffine::DiffusionPoint{steepness / r * Mat3::Identity(), r, d / r};
       },
       values);
 
@@ -174,8 +236,10 @@ void VentricularCoordinates::solve_apicobasal(const polyaffine::TetMesh& mesh, c
   double volume = 0, flux = 0;
   for (std::size_t q = 0; q < points.tet.size(); ++q) {
     const auto k = static_cast<Eigen::Index>(q);
+    const CoordinateSample at = sample(points.tet[q], points.barycentric.col(k));
+    if (at.w > 0.5) continue;
     volume += points.weights[k];
-    flux += points.weights[k] * sample(points.tet[q], points.barycentric.col(k)).grad_u.norm();
+    flux += points.weights[k] * at.grad_u.norm();
   }
   arc_length_ = volume / flux;
 }
@@ -192,6 +256,12 @@ CoordinateSample VentricularCoordinates::sample(int tet, const Vec4& barycentric
   const Vec3 away = d / r;
   out.psi = std::atan2(d.dot(septal_), d.dot(anterior_));
   out.grad_psi = -axis_.cross(away) / r;
+  if (stretch_) {
+    const auto [psi, slope] = (*stretch_)(out.psi);
+    out.psi = std::remainder(psi, 2 * polyaffine::kPi);
+    out.grad_psi *= slope;
+  }
+  if (right_) out.w = s.N.dot(right_->transventricular()(s.functions));
 
   const double g = s.N.dot(slope_(s.functions));
   const double h = s.N.dot(rest_(s.functions));
@@ -214,6 +284,23 @@ CoordinateSample VentricularCoordinates::sample(int tet, const Vec4& barycentric
     const Vec3 dc = e_c.gradient.col(J);
     out.dQ[J] << dr.cross(e_c.value) + e_r.value.cross(dc), dc, dr;
   }
+  return out;
+}
+
+CoordinateSample VentricularCoordinates::wall_sample(int tet, const Vec4& barycentric) const {
+  return right_ && right_->border(tet, barycentric).w > 0.5 ? right_sample(tet, barycentric)
+                                                            : sample(tet, barycentric);
+}
+
+CoordinateSample VentricularCoordinates::right_sample(int tet, const Vec4& barycentric) const {
+  CoordinateSample out = sample(tet, barycentric);
+  const auto right = right_->sample(tet, barycentric);
+  out.t = right.t;
+  out.grad_t = right.grad_t;
+  const Vec3 e_r = right.grad_t.normalized();
+  const Vec3 e_l = (out.grad_u - out.grad_u.dot(e_r) * e_r).normalized();
+  out.Q << e_l, e_l.cross(e_r), e_r;
+  out.dQ.fill(Mat3::Zero());
   return out;
 }
 
@@ -244,8 +331,17 @@ double VentricularCoordinates::long_axis_height(const Vec3& X) const {
 }
 
 double VentricularCoordinates::angle(const Vec3& X) const {
+  const double plain = plain_angle(X);
+  return stretch_ ? std::remainder((*stretch_)(plain).first, 2 * polyaffine::kPi) : plain;
+}
+
+double VentricularCoordinates::plain_angle(const Vec3& X) const {
   const Vec3 d = X - base_centre_;
   return std::atan2(d.dot(septal_), d.dot(anterior_));
+}
+
+double VentricularCoordinates::sector_angle(const Vec3& X) const {
+  return long_axis_height(X) < 1.0 / 3 ? plain_angle(X) : angle(X);
 }
 
 }  // namespace cardiac

@@ -4,20 +4,24 @@
 #include <memory>
 #include <optional>
 
+#include <polyaffine/core/monotone_cubic.hpp>
 #include <polyaffine/geometry/polynomial_field.hpp>
 #include <polyaffine/kinematics/lagrange.hpp>
 #include <polyaffine/mesh/tet_mesh.hpp>
 
 namespace cardiac {
 
-/// Labels of the boundary of a left ventricle.
+class RightVentricularCoordinates;
+
+/// Labels of the boundary of a left ventricle, or of both.
 struct SurfaceLabels {
   int endo = 1, epi = 2, base = 3;
+  std::optional<int> rv_endo{};  ///< absent: no right ventricle
 };
 
 struct AnatomyOptions {
   std::optional<polyaffine::Vec3> long_axis;  ///< apex to base; absent: the mean outward normal of the base
-  polyaffine::Vec3 anterior = {0, 1, 0};      ///< from the axis to the anterior wall
+  polyaffine::Vec3 anterior = {0, 1, 0};  ///< from the axis to the anterior wall; a right ventricle tells it
   std::optional<polyaffine::EdgeMidpoints> midpoints{};  ///< of boundary edges; absent: smooth_midpoints
 };
 
@@ -26,19 +30,24 @@ struct CoordinateSample {
   double u = 0;    ///< apicobasal, 0 on the axis through the apex to 1 at the base, by arc length
   double t = 0;    ///< transmural depth, 0 endocardium to 1 epicardium
   double psi = 0;  ///< rotational, (−π, π], 0 anterior, growing towards the septum
+  double w = 0;    ///< transventricular, 0 in the left wall and the septum, 1 in the right free wall
   polyaffine::Vec3 grad_u, grad_t, grad_psi;
   polyaffine::Mat3 Q;                  ///< columns longitudinal, circumferential, radial; orthonormal
   std::array<polyaffine::Mat3, 3> dQ;  ///< ∂Q/∂X_J
 };
 
-/// Coordinates of a left ventricle, with quadratic elements on the curved wall.
+/// Coordinates of a left ventricle, with quadratic elements on the curved wall. With a right ventricle they
+/// are those of the left wall and the septum and go on into the right free wall, which has its own (right()).
 ///
 /// - Transmural t: ∇·(w ∇t) = 0, 0 on the endocardium and 1 on the epicardium, w = |∇t'| of the harmonic t'
 ///   (w = 1): where the wall spreads the harmonic depth runs ahead, with the weight |∇t| is even along the
 ///   way through the wall.
 /// - Radial axis e_r: the direction of a polynomial of degree 5 in X closest to ∇t. ∂Q multiplies the
 ///   displacement itself, so axes must be smooth above all; the gradient of a mesh's ∇t is not.
-/// - Rotational ψ: the angle about the long axis, counter-clockwise seen from the apex.
+/// - Rotational ψ: the angle about the long axis, counter-clockwise seen from the apex. With a right
+/// ventricle
+///   the angle is stretched smoothly so that the anterior insertion has ψ = 30°, the inferior one 150° and
+///   the septum and the rest are divided evenly: equal ψ means the same place in every heart.
 /// - Apicobasal u: ∇·(|∇ψ| |∇t| ∇u) = 0, 0 on the long axis through the apical wall, 1 on the base. A strip
 /// of
 ///   the wall between two angles conducts by its width 1/|∇ψ| and its thickness 1/|∇t|, which the weights
@@ -50,17 +59,30 @@ struct CoordinateSample {
 ///   base). Q = [e_l e_c e_r] is orthonormal at every point.
 class VentricularCoordinates {
  public:
-  /// Throws InputError when a label is missing, the endocardium has not exactly one rim or that leaves the
-  /// base, or the anterior direction is parallel to the long axis.
+  /// Throws InputError when a label is missing, an endocardium has no rim or more than one (left), or one
+  /// that leaves the base, the anterior direction is parallel to the long axis, or there is no septum between
+  /// the endocardia.
   VentricularCoordinates(const polyaffine::TetMesh& mesh, const SurfaceLabels& labels,
                          const AnatomyOptions& options);
 
   CoordinateSample sample(int tet, const polyaffine::Vec4& barycentric) const;
+  /// The same with the depth and axes (Q; its derivatives are zero) of the right free wall; only with a right
+  /// ventricle.
+  CoordinateSample right_sample(int tet, const polyaffine::Vec4& barycentric) const;
+  /// That of the ventricle to which the point belongs (right where w > ½): what strain is told in.
+  CoordinateSample wall_sample(int tet, const polyaffine::Vec4& barycentric) const;
   polyaffine::Vec3 position(int tet, const polyaffine::Vec4& barycentric) const;  ///< mm
   /// Height along the long axis, 0 at the apex of the cavity and 1 at the base.
   double long_axis_height(const polyaffine::Vec3& X) const;
   /// Rotational coordinate of a position.
   double angle(const polyaffine::Vec3& X) const;
+  /// Angle about the long axis without stretching, (−π, π], 0 anterior.
+  double plain_angle(const polyaffine::Vec3& X) const;
+  /// The angle by which AHA segments are divided: ψ, in the apical third the plain one, in which its four
+  /// sectors are right angles about the middle of the septum.
+  double sector_angle(const polyaffine::Vec3& X) const;
+  /// Null without a right ventricle.
+  const RightVentricularCoordinates* right() const { return right_.get(); }
 
   const polyaffine::Vec3& axis() const { return axis_; }
   const polyaffine::Vec3& anterior() const { return anterior_; }  ///< unit, across the axis
@@ -77,6 +99,8 @@ class VentricularCoordinates {
 
  private:
   void find_axis(const polyaffine::TetMesh& mesh, const SurfaceLabels& labels, const AnatomyOptions& options);
+  void orient(const polyaffine::Vec3& anterior);
+  void find_insertions(const polyaffine::TetMesh& mesh);
   void solve_transmural(const polyaffine::TetMesh& mesh, const SurfaceLabels& labels);
   void solve_apicobasal(const polyaffine::TetMesh& mesh, const SurfaceLabels& labels);
   polyaffine::Vec3 from_axis(const polyaffine::Vec3& X) const;  ///< perpendicular from the long axis, mm
@@ -84,6 +108,9 @@ class VentricularCoordinates {
   std::shared_ptr<const polyaffine::LagrangeBasis> space_;
   polyaffine::Vec3 axis_, base_centre_, anterior_, septal_;
   double cavity_length_ = 0, arc_length_ = 0;
+  double least_steepness_ = 0;  // of the depth in the coefficients, 1/mm; 0 without a right ventricle
+  std::optional<polyaffine::MonotoneCubic> stretch_;  // of the plain angle, three turns of it
+  std::shared_ptr<RightVentricularCoordinates> right_;
   std::optional<polyaffine::PolynomialField> radial_;  // not of unit length
   polyaffine::Vector t_, slope_, rest_;                // t, g and h by node
 };

@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 
+#include <cardiac/anatomy/right_ventricle.hpp>
 #include <polyaffine/core/error.hpp>
 
 namespace cardiac {
@@ -40,6 +41,11 @@ bool is_aha(const RingOptions& options) {
 // Apical, mid and basal ring: near the ends, where the wall bends and is held, they stand closer.
 constexpr std::array<double, 3> kAhaPositions{0.2, 0.5, 0.85};
 
+// The same for the rows of the right free wall, in shares of its apicobasal range, and their numbers of
+// nodes.
+constexpr std::array<double, 4> kRightPositions{0, 0.3, 0.55, 0.85};
+constexpr std::array<int, 4> kRightNodes{1, 3, 4, 4};
+
 std::vector<FrameRing> make_rings(const RingOptions& options) {
   std::vector<FrameRing> rings(options.nodes.size());
   const auto n = static_cast<int>(rings.size());
@@ -60,6 +66,41 @@ int ring_of(const FrameLayout& layout, int frame) {
   auto k = static_cast<int>(layout.rings.size());
   while (k > 0 && frame >= layout.rings[k - 1].first_frame + layout.rings[k - 1].nodes) --k;
   return k;
+}
+
+// Rows of the right free wall. The first one lies so high that the weights of the others, which depend on the
+// angle about the right axis, vanish where the axis leaves the wall.
+void add_right_rows(const polyaffine::TetMesh& mesh, const VentricularCoordinates& coordinates,
+                    const std::vector<int>& frame, FrameLayout& layout) {
+  const RightVentricularCoordinates& right = *coordinates.right();
+  const int apex_frame = layout.cap() + kBothSegments - kAhaSegments;
+  double volume = 0;
+  for (int t = 0; t < mesh.num_tets(); ++t) {
+    if (frame[t] <= layout.cap()) continue;
+    const double v = mesh.tet_volume(t);
+    volume += v;
+    layout.right_radius += v * right.radius(mesh.tet_centroid(t));
+    layout.right_thickness += v / right.sample(t, Vec4::Constant(0.25)).grad_t.norm();
+  }
+  layout.right_radius /= volume;
+  layout.right_thickness /= volume;
+  double apex = 0, apex_volume = 0, on_axis = 0;
+  for (int t = 0; t < mesh.num_tets(); ++t) {
+    if (frame[t] <= layout.cap()) continue;
+    const double u = coordinates.sample(t, Vec4::Constant(0.25)).u;
+    if (frame[t] == apex_frame) {
+      apex += mesh.tet_volume(t) * u;
+      apex_volume += mesh.tet_volume(t);
+    }
+    if (right.radius(mesh.tet_centroid(t)) < layout.right_thickness) on_axis = std::max(on_axis, u);
+  }
+  if (apex_volume > 0) apex /= apex_volume;
+  const double first = std::max(apex, on_axis);
+  int next = apex_frame + 1;
+  for (std::size_t k = 0; k < kRightNodes.size(); ++k) {
+    next -= kRightNodes[k];
+    layout.right.push_back({first + kRightPositions[k] * (1 - first), kRightNodes[k], next});
+  }
 }
 
 }  // namespace
@@ -83,9 +124,13 @@ std::vector<int> region_tets(const polyaffine::TetMesh& mesh, const VentricularC
   std::vector<int> frame(mesh.num_tets());
   for (int t = 0; t < mesh.num_tets(); ++t) {
     const polyaffine::Vec3 X = mesh.tet_centroid(t);
-    const double psi = coordinates.angle(X);
-    frame[t] = layout.follows_segments ? aha_segment(coordinates.long_axis_height(X), psi) - 1
-                                       : layout.region(coordinates.sample(t, Vec4::Constant(0.25)).u, psi);
+    const int segment = segment_at(coordinates, t, Vec4::Constant(0.25), X);
+    if (segment > kAhaSegments)
+      frame[t] = layout.cap() + segment - kAhaSegments;
+    else
+      frame[t] = layout.follows_segments
+                     ? segment - 1
+                     : layout.region(coordinates.sample(t, Vec4::Constant(0.25)).u, coordinates.angle(X));
   }
   return frame;
 }
@@ -102,15 +147,17 @@ FrameLayout frame_layout(const polyaffine::TetMesh& mesh, const VentricularCoord
     double volume = 0, radius = 0, thickness = 0;
   };
   std::vector<Mean> means(layout.rings.size() + 1);
+  if (coordinates.right()) add_right_rows(mesh, coordinates, frame, layout);
   std::vector<int> tets(layout.num_nodes(), 0);
   for (int t = 0; t < mesh.num_tets(); ++t) {
+    ++tets[frame[t]];
+    if (frame[t] > layout.cap()) continue;
     const CoordinateSample s = coordinates.sample(t, Vec4::Constant(0.25));
     const double v = mesh.tet_volume(t);
     Mean& mean = means[ring_of(layout, frame[t])];
     mean.volume += v;
     mean.radius += v / s.grad_psi.norm();
     mean.thickness += v / s.grad_t.norm();
-    ++tets[frame[t]];
   }
   for (int i = 0; i < layout.num_nodes(); ++i)
     if (tets[i] == 0)

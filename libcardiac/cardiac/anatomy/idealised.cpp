@@ -11,15 +11,6 @@ namespace {
 
 using polyaffine::kPi;
 
-/// First-order distance to the ellipsoid, negative inside.
-double ellipsoid_function(double a, double c, const Vec3& x) {
-  const Vec3 scaled(x.x() / a, x.y() / a, x.z() / c);
-  const Vec3 normal(scaled.x() / a, scaled.y() / a, scaled.z() / c);
-  const double k0 = scaled.norm();
-  const double k1 = normal.norm();
-  return k1 > 0 ? k0 * (k0 - 1) / k1 : -std::min(a, c);
-}
-
 double cap_volume(double a, double c, double z) {
   return kPi * a * a * (2 * c / 3 + z - z * z * z / (3 * c * c));
 }
@@ -82,9 +73,18 @@ double default_mesh_size_mm(const TruncatedEllipsoid& s) {
   return 0.52 * (s.epi_short_mm - s.endo_short_mm);
 }
 
+double ellipsoid_function(const Vec3& semi_axes_mm, const Vec3& x) {
+  const Vec3 scaled = x.cwiseQuotient(semi_axes_mm);
+  const Vec3 normal = scaled.cwiseQuotient(semi_axes_mm);
+  const double k0 = scaled.norm();
+  const double k1 = normal.norm();
+  return k1 > 0 ? k0 * (k0 - 1) / k1 : -semi_axes_mm.minCoeff();
+}
+
 double wall_function(const TruncatedEllipsoid& s, const Vec3& x) {
-  return std::max({ellipsoid_function(s.epi_short_mm, s.epi_long_mm, x),
-                   -ellipsoid_function(s.endo_short_mm, s.endo_long_mm, x), x.z() - s.base_z_mm});
+  return std::max({ellipsoid_function({s.epi_short_mm, s.epi_short_mm, s.epi_long_mm}, x),
+                   -ellipsoid_function({s.endo_short_mm, s.endo_short_mm, s.endo_long_mm}, x),
+                   x.z() - s.base_z_mm});
 }
 
 std::array<Points, 2> rims(const TruncatedEllipsoid& s, int n) {

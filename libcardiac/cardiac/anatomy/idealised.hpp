@@ -9,11 +9,16 @@ namespace cardiac {
 using polyaffine::Points;
 using polyaffine::Vec3;
 
-/// Labels of the surfaces of a ventricle mesh.
+/// Labels of the surfaces of a ventricle mesh; the last one only with a right ventricle.
 inline constexpr int kEndocardium = 1;
 inline constexpr int kEpicardium = 2;
 inline constexpr int kBase = 3;
 inline constexpr int kRvEndocardium = 4;
+
+/// Regions of the wall of two ventricles.
+inline constexpr int kLvWall = 1;
+inline constexpr int kRvWall = 2;
+inline constexpr int kSeptum = 3;
 
 /// A left ventricle between two half ellipsoids of revolution about z, centred at the origin, cut by the base
 /// plane z = base_z_mm; the apex points to −z. Semi-axes in mm.
@@ -37,6 +42,9 @@ void check_shape(const TruncatedEllipsoid& shape);
 
 /// An edge length that leaves about two tets through the wall: 0.52 of its thickness at the equator, mm.
 double default_mesh_size_mm(const TruncatedEllipsoid& shape);
+
+/// First-order distance of x from the ellipsoid with these semi-axes about the origin (mm), negative inside.
+double ellipsoid_function(const Vec3& semi_axes_mm, const Vec3& x);
 
 /// Negative in the wall, zero on its surface, positive outside; in mm near the surface.
 double wall_function(const TruncatedEllipsoid& shape, const Vec3& x);

@@ -116,6 +116,12 @@ FramesAtPoint SegmentFrames::sample(int tet, const Vec4& barycentric) const {
   return out;
 }
 
+SegmentFrames::PointCell SegmentFrames::point_cell(int tet, const Vec4& barycentric) const {
+  const CoordinateSample at = coordinates_->sample(tet, barycentric);
+  const Cell c = cell(at.u, at.psi);
+  return {c.index, Vec3(c.u, c.psi, at.t)};
+}
+
 SegmentFrames::Cell SegmentFrames::cell(double u, double psi) const {
   std::size_t k = 0;
   while (k + 2 < positions_.size() && u > positions_[k + 1]) ++k;

@@ -29,6 +29,7 @@ class SegmentFrames : public polyaffine::FrameField {
   int num_frames() const override {
     return layout_.num_nodes() + (base_frames_ ? layout_.rings.back().nodes : 0);
   }
+  bool base_frames() const { return base_frames_; }
   polyaffine::FramesAtPoint sample(int tet, const polyaffine::Vec4& barycentric) const override;
 
   const FrameLayout& layout() const { return layout_; }
@@ -41,6 +42,12 @@ class SegmentFrames : public polyaffine::FrameField {
     double u = 0, psi = 0;  ///< position within the cell, each 0 to 1
   };
   Cell cell(double u, double psi) const;
+  /// The cell of a point of the mesh and its place in it, three coordinates from 0 to 1.
+  struct PointCell {
+    int index = 0;
+    polyaffine::Vec3 place;
+  };
+  virtual PointCell point_cell(int tet, const polyaffine::Vec4& barycentric) const;
   int num_cells() const { return static_cast<int>(cell_start_.back()); }
 
  private:

@@ -4,7 +4,7 @@ namespace cardiac {
 namespace {
 
 /// The aortic valve and the proximal resistance in series.
-Valve outlet(const LeftHeartLoop& loop) {
+Valve aortic_outlet(const LeftHeartLoop& loop) {
   const double proximal = loop.arteries.proximal_resistance_kPa_ms_per_mm3;
   return {loop.aortic.resistance_kPa_ms_per_mm3 + proximal, loop.aortic.smoothing_kPa,
           loop.aortic.leak_kPa_ms_per_mm3 + proximal};
@@ -32,14 +32,14 @@ Run longest_run(const std::vector<bool>& flags) {
 
 LoopFlows loop_flows(const LeftHeartLoop& loop, double pressure_kPa, double capacitor_pressure_kPa) {
   const double in = valve_flow(loop.mitral, loop.filling_pressure_kPa - pressure_kPa).flow_mm3_per_ms;
-  const double out = valve_flow(outlet(loop), pressure_kPa - capacitor_pressure_kPa).flow_mm3_per_ms;
+  const double out = valve_flow(aortic_outlet(loop), pressure_kPa - capacitor_pressure_kPa).flow_mm3_per_ms;
   return {in, out, inlet_pressure(loop.arteries, capacitor_pressure_kPa, out)};
 }
 
 LoopResidual loop_residual(const LeftHeartLoop& loop, double volume_rate_mm3_per_ms, double pressure_kPa,
                            double capacitor_pressure_kPa, double capacitor_rate_kPa_per_ms) {
   const ValveFlow in = valve_flow(loop.mitral, loop.filling_pressure_kPa - pressure_kPa);
-  const ValveFlow out = valve_flow(outlet(loop), pressure_kPa - capacitor_pressure_kPa);
+  const ValveFlow out = valve_flow(aortic_outlet(loop), pressure_kPa - capacitor_pressure_kPa);
   return {
       .volume = volume_rate_mm3_per_ms - in.flow_mm3_per_ms + out.flow_mm3_per_ms,
       .capacitor = windkessel_residual(loop.arteries, capacitor_pressure_kPa, capacitor_rate_kPa_per_ms,
@@ -59,21 +59,30 @@ LoopRates loop_rates(const LeftHeartLoop& loop, double pressure_kPa, double capa
 
 std::vector<Phase> classify_phases(const LeftHeartLoop& loop, const polyaffine::Vector& pressure_kPa,
                                    const polyaffine::Vector& capacitor_pressure_kPa) {
+  return classify_phases(loop.mitral, loop.aortic,
+                         polyaffine::Vector::Constant(pressure_kPa.size(), loop.filling_pressure_kPa),
+                         pressure_kPa, capacitor_pressure_kPa);
+}
+
+std::vector<Phase> classify_phases(const Valve& inlet, const Valve& outlet,
+                                   const polyaffine::Vector& before_kPa,
+                                   const polyaffine::Vector& pressure_kPa,
+                                   const polyaffine::Vector& behind_kPa) {
   const int size = static_cast<int>(pressure_kPa.size());
-  std::vector<bool> aortic_open(size), mitral_closed(size);
+  std::vector<bool> outlet_open(size), inlet_closed(size);
   for (int i = 0; i < size; ++i) {
-    aortic_open[i] = is_open(loop.aortic, pressure_kPa[i] - capacitor_pressure_kPa[i]);
-    mitral_closed[i] = !is_open(loop.mitral, loop.filling_pressure_kPa - pressure_kPa[i]);
+    outlet_open[i] = is_open(outlet, pressure_kPa[i] - behind_kPa[i]);
+    inlet_closed[i] = !is_open(inlet, before_kPa[i] - pressure_kPa[i]);
   }
 
-  Run ejection = longest_run(aortic_open);
+  Run ejection = longest_run(outlet_open);
   if (size > 0 && ejection.length == 0) pressure_kPa.maxCoeff(&ejection.begin);
 
   const auto wrap = [&](int i) { return (i + 2 * size) % size; };
   const int rest = size - ejection.length, end = ejection.begin + ejection.length;
   int before = 0, after = 0;
-  while (before < rest && mitral_closed[wrap(ejection.begin - 1 - before)]) ++before;
-  while (before + after < rest && mitral_closed[wrap(end + after)]) ++after;
+  while (before < rest && inlet_closed[wrap(ejection.begin - 1 - before)]) ++before;
+  while (before + after < rest && inlet_closed[wrap(end + after)]) ++after;
 
   std::vector<Phase> phases(size, Phase::filling);
   for (int i = 0; i < ejection.length; ++i) phases[wrap(ejection.begin + i)] = Phase::ejection;

@@ -54,7 +54,12 @@ LoopRates loop_rates(const LeftHeartLoop& loop, double pressure_kPa, double capa
 /// isovolumetric relaxation, all others filling. So each phase is one run and they follow in this order
 /// whatever a valve does for an instant. When the aortic valve never opens, the largest pressure parts
 /// contraction from relaxation.
-/// Both vectors have the same size.
+/// All vectors have the same size: pressures before the inlet valve, in the cavity and behind the outlet
+/// valve. For the loop of a left ventricle the first is the filling pressure.
+std::vector<Phase> classify_phases(const Valve& inlet, const Valve& outlet,
+                                   const polyaffine::Vector& before_kPa,
+                                   const polyaffine::Vector& pressure_kPa,
+                                   const polyaffine::Vector& behind_kPa);
 std::vector<Phase> classify_phases(const LeftHeartLoop& loop, const polyaffine::Vector& pressure_kPa,
                                    const polyaffine::Vector& capacitor_pressure_kPa);
 

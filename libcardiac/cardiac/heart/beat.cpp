@@ -31,6 +31,27 @@ LeftHeartLoop left_heart_loop(const protocol::Circulation& c) {
   return loop;
 }
 
+TwoSidedLoop two_sided_loop(const protocol::Circulation& c) {
+  const LeftHeartLoop left = left_heart_loop(c);
+  TwoSidedLoop loop;
+  loop.left.inlet = left.mitral;
+  loop.left.outlet.resistance_kPa_ms_per_mm3 =
+      c.aortic_valve_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL;
+  loop.left.arteries = left.arteries;
+  loop.left.venous_compliance_mm3_per_kPa =
+      c.pulmonary_venous_compliance_mL_per_mmHg * compliance_per_mL_per_mmHg;
+  loop.right.inlet.resistance_kPa_ms_per_mm3 =
+      c.tricuspid_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL;
+  loop.right.outlet.resistance_kPa_ms_per_mm3 =
+      c.pulmonary_valve_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL;
+  loop.right.arteries = {c.pulmonary_characteristic_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL,
+                         c.pulmonary_peripheral_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL,
+                         c.pulmonary_compliance_mL_per_mmHg * compliance_per_mL_per_mmHg, 0};
+  loop.right.venous_compliance_mm3_per_kPa =
+      c.systemic_venous_compliance_mL_per_mmHg * compliance_per_mL_per_mmHg;
+  return loop;
+}
+
 namespace {
 
 bool stop_wanted(const RunControl& control) {
@@ -43,19 +64,40 @@ std::string why(const polyaffine::LoadReport& report, const RunControl& control)
          "): a limit load, buckling, or a load too large for the tissue";
 }
 
+std::shared_ptr<const CirculationModel> circulation_model(const Ventricle& ventricle,
+                                                          const protocol::Circulation& c) {
+  if (ventricle.right_cavity) return std::make_shared<TwoSidedCirculation>(two_sided_loop(c));
+  return std::make_shared<LeftHeartCirculation>(left_heart_loop(c));
+}
+
+// The state of a wall filled to the atrial pressures.
+HeartState filled_state(const Ventricle& ventricle, const protocol::Circulation& c, const Vector& at) {
+  HeartState out{0, at, ventricle.cavity_volume(at), c.filling_pressure_mmHg * kPa_per_mmHg,
+                 c.initial_aortic_pressure_mmHg * kPa_per_mmHg};
+  if (!ventricle.right_cavity) return out;
+  out.right_volume_mm3 = ventricle.right_cavity->evaluate({at}).value;
+  out.right_pressure_kPa = c.right_filling_pressure_mmHg * kPa_per_mmHg;
+  out.loop = Vector(3);
+  out.loop << c.initial_pulmonary_pressure_mmHg, c.filling_pressure_mmHg, c.right_filling_pressure_mmHg;
+  out.loop *= kPa_per_mmHg;
+  return out;
+}
+
 // The wall in equilibrium at the filling pressure. On failure the path says so.
-bool fill(const Ventricle& ventricle, const LeftHeartLoop& loop, const Vector& tension,
+bool fill(const Ventricle& ventricle, const protocol::Circulation& circulation, const Vector& tension,
           const RunControl& control, HeartPath& path, Vector& c) {
-  const auto problem = loaded_ventricle(ventricle, loop.filling_pressure_kPa, tension);
+  const auto problem = loaded_ventricle(ventricle, {0, Vector::Zero(tension.size())},
+                                        {circulation.filling_pressure_mmHg * kPa_per_mmHg, tension,
+                                         circulation.right_filling_pressure_mmHg * kPa_per_mmHg});
   const auto system = ventricle.make_system();
   polyaffine::LoadOptions options;
   options.interrupted = [&] { return stop_wanted(control); };
   const auto report = polyaffine::load_stepping(problem, *system, c, options);
   path.newton_iterations += report.iterations;
   if (report.converged()) return true;
-  path.stop_reason =
-      "filling stopped at " + std::to_string(report.reached * loop.filling_pressure_kPa / kPa_per_mmHg) +
-      " of " + std::to_string(loop.filling_pressure_kPa / kPa_per_mmHg) + " mmHg: " + why(report, control);
+  path.stop_reason = "filling stopped at " +
+                     std::to_string(report.reached * circulation.filling_pressure_mmHg) + " of " +
+                     std::to_string(circulation.filling_pressure_mmHg) + " mmHg: " + why(report, control);
   return false;
 }
 
@@ -68,15 +110,18 @@ double stroke_volume(const std::vector<HeartState>& steps) {
   return high->volume_mm3 - low->volume_mm3;
 }
 
-// The limit cycle is reached when the stroke volume, the volume and the arterial pressure come back.
+// The limit cycle is reached when the stroke volume, the volumes and the pressures of the vessels come back.
 bool closed(const HeartPath& path, double tolerance_percent) {
   const auto& sv = path.stroke_volumes_mm3;
   if (sv.size() < 2) return false;
   const double allowed = tolerance_percent / 100 * std::abs(sv.back());
+  const HeartState &first = path.steps.front(), &last = path.steps.back();
   return std::abs(sv.back() - sv[sv.size() - 2]) <= allowed &&
-         std::abs(path.steps.back().volume_mm3 - path.steps.front().volume_mm3) <= allowed &&
-         std::abs(path.steps.back().capacitor_pressure_kPa - path.steps.front().capacitor_pressure_kPa) <=
-             tolerance_percent / 100 * path.steps.back().capacitor_pressure_kPa;
+         std::abs(last.volume_mm3 - first.volume_mm3) <= allowed &&
+         std::abs(last.right_volume_mm3 - first.right_volume_mm3) <= allowed &&
+         std::abs(last.capacitor_pressure_kPa - first.capacitor_pressure_kPa) <=
+             tolerance_percent / 100 * last.capacitor_pressure_kPa &&
+         ((last.loop - first.loop).array().abs() <= tolerance_percent / 100 * last.loop.array()).all();
 }
 
 // The beat that the path has come to, from and to (y, rate). False, with the reason, when it stopped.
@@ -131,14 +176,13 @@ bool run_beat(BeatSystem& system, const Protocol& protocol, double period, const
 // The wall filled, and (y, rate) when the first beat begins. False, with the reason, when it stopped.
 bool begin_beats(const Ventricle& ventricle, const Protocol& protocol, const RunControl& control,
                  BeatSystem& system, Vector& y, Vector& rate, HeartPath& path) {
-  const LeftHeartLoop loop = left_heart_loop(*protocol.circulation);
+  const protocol::Circulation& circulation = *protocol.circulation;
   Vector c = Vector::Zero(ventricle.num_coefficients());
   const auto begin = std::chrono::steady_clock::now();
-  const bool filled = fill(ventricle, loop, ventricle.contraction->tension(0), control, path, c);
+  const bool filled = fill(ventricle, circulation, ventricle.contraction->tension(0), control, path, c);
   system.cost().filling_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (!filled) return false;
-  HeartState start{0, c, ventricle.cavity_volume(c), loop.filling_pressure_kPa,
-                   protocol.circulation->initial_aortic_pressure_mmHg * kPa_per_mmHg};
+  HeartState start = filled_state(ventricle, circulation, c);
   rate = system.start_consistently(start);
   y = system.pack(start);
   return true;
@@ -176,7 +220,7 @@ Checkpoint checkpoint(const HeartPath& path, const BeatSystem& system, const Vec
 
 HeartPath run_beats(const Ventricle& ventricle, const Protocol& protocol, const RunControl& control) {
   const double tolerance = protocol.time.limit_cycle_tolerance_percent;
-  BeatSystem system(ventricle, left_heart_loop(*protocol.circulation));
+  BeatSystem system(ventricle, circulation_model(ventricle, *protocol.circulation));
   HeartPath path;
   ++path.built["circulation"];
   Vector y, rate;
@@ -205,15 +249,23 @@ HeartPath run_prescribed(const Ventricle& ventricle, const Protocol& protocol, c
   Vector c = Vector::Zero(ventricle.num_coefficients());
   const double duration = protocol.time.duration_ms;
   const double target = protocol.cavities ? protocol.cavities->pressure_mmHg * kPa_per_mmHg : 0.0;
+  const double right_target = protocol.cavities && ventricle.right_cavity
+                                  ? protocol.cavities->right_pressure_mmHg * kPa_per_mmHg
+                                  : 0.0;
   const auto system = ventricle.make_system();
   const auto follow = [&](const polyaffine::EquilibriumProblem& problem,
-                          const std::function<double(double)>& pressure,
+                          const std::function<double(double)>& share,
                           const std::function<double(double)>& time) {
     polyaffine::LoadOptions options;
     options.first_step = options.largest_step = 1.0 / protocol.time.load_steps;
     const auto record = [&](double load, const Vector& at) {
-      path.outputs.push_back(
-          {time(load), at, ventricle.cavity ? ventricle.cavity_volume(at) : 0.0, pressure(load), 0});
+      HeartState state{time(load), at, ventricle.cavity ? ventricle.cavity_volume(at) : 0.0,
+                       share(load) * target, 0};
+      if (ventricle.right_cavity) {
+        state.right_volume_mm3 = ventricle.right_cavity->evaluate({at}).value;
+        state.right_pressure_kPa = share(load) * right_target;
+      }
+      path.outputs.push_back(std::move(state));
       const auto wall = ventricle.wall->evaluate({at, problem.terms.front().state(load)});
       path.min_det_F = std::min(path.min_det_F, wall.min_det);
       path.max_det_F = std::max(path.max_det_F, wall.max_det);
@@ -239,24 +291,23 @@ HeartPath run_prescribed(const Ventricle& ventricle, const Protocol& protocol, c
 
   const Vector none;
   const Vector at_rest = ventricle.contraction ? ventricle.contraction->tension(0) : none;
-  auto raising = loaded_ventricle(ventricle, target, at_rest);
+  const WallLoad unloaded{0, Vector::Zero(at_rest.size())};
+  const WallLoad loaded{target, at_rest, right_target};
+  const auto raising = loaded_ventricle(ventricle, unloaded, loaded);
   const bool contracts = ventricle.contraction != nullptr;
   path.completed = follow(
-      raising, [&](double load) { return load * target; },
+      raising, [](double load) { return load; },
       [&](double load) { return contracts ? 0.0 : load * duration; });
   if (path.completed && contracts) {
     Vector tension;
-    auto problem = loaded_ventricle(ventricle, target, at_rest);
+    auto problem = loaded_ventricle(ventricle, loaded, loaded);
     problem.terms.front().state = [&](double load) {
       tension = ventricle.contraction->tension(load * duration);
       return polyaffine::PointState(tension.data(), tension.size());
     };
-    for (std::size_t k = 1; k < problem.terms.size(); ++k)
-      if (problem.terms[k].energy == ventricle.cavity)
-        problem.terms[k].scale = [target](double) { return -target; };
     path.outputs.erase(path.outputs.begin(), path.outputs.end() - 1);
     path.completed = follow(
-        problem, [&](double) { return target; }, [&](double load) { return load * duration; });
+        problem, [](double) { return 1.0; }, [&](double load) { return load * duration; });
   }
   path.steps = path.outputs;
   path.simulated_ms = path.outputs.back().time_ms;

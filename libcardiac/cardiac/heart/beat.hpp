@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <cardiac/circulation/left_heart_loop.hpp>
+#include <cardiac/circulation/two_sided_loop.hpp>
 #include <cardiac/heart/beat_result.hpp>
 #include <cardiac/heart/ventricle.hpp>
 #include <polyaffine/solve/dae.hpp>
@@ -16,7 +16,11 @@ namespace cardiac {
 struct HeartState {
   double time_ms = 0;
   polyaffine::Vector c;
-  double volume_mm3 = 0, pressure_kPa = 0, capacitor_pressure_kPa = 0;
+  double volume_mm3 = 0, pressure_kPa = 0, capacitor_pressure_kPa = 0;  ///< of the left ventricle
+  double right_volume_mm3 = 0, right_pressure_kPa = 0;
+  /// Pressures of the closed loop of two ventricles, kPa: pulmonary arteries, pulmonary veins, systemic veins
+  /// (those of the systemic arteries are capacitor_pressure_kPa); empty with one ventricle.
+  polyaffine::Vector loop{};
 };
 
 /// The path of a run: states of its last beat (or of a loading), and what it took to compute.
@@ -50,15 +54,17 @@ struct RunControl {
 };
 
 LeftHeartLoop left_heart_loop(const protocol::Circulation& circulation);
+TwoSidedLoop two_sided_loop(const protocol::Circulation& circulation);
 
-/// Beats of a ventricle coupled to its circulation, from the wall filled to the filling pressure until two
-/// strokes differ by less than the limit-cycle tolerance or max_beats is reached. Unknowns: the coefficients
-/// c, the cavity volume V and pressure p and the capacitor pressure p_c, in the index-1 system
+/// Beats of one or two ventricles coupled to their circulation, from the wall filled to the filling pressures
+/// until two strokes differ by less than the limit-cycle tolerance or max_beats is reached. Unknowns: the
+/// coefficients c, the cavity volume V and pressure p and the capacitor pressure p_c, in the index-1 system
 ///   ∂W/∂c(c, ċ, τ(t)) − p ∂V/∂c = 0,  V − V(c) = 0,  V̇ = q_mitral − q_aortic,  C ṗ_c = q_aortic − (p_c −
 ///   p_ref)/R,
-/// integrated by IDA, begun anew at each beat, with the block elimination of the last three unknowns. A run
-/// that cannot go on returns what it has with completed = false and the reason. Throws InputError for a
-/// checkpoint of another number of unknowns.
+/// or, with two ventricles, with both volumes and pressures and the closed loop (TwoSidedCirculation) instead
+/// of the last two equations; integrated by IDA, begun anew at each beat, with the block elimination of all
+/// unknowns but c. A run that cannot go on returns what it has with completed = false and the reason. Throws
+/// InputError for a checkpoint of another number of unknowns.
 HeartPath run_beats(const Ventricle& ventricle, const Protocol& protocol, const RunControl& control = {});
 
 /// A ventricle without circulation: pressure raised to the prescribed value in equilibrium and, with

@@ -29,10 +29,13 @@ class Stopwatch {
 
 }  // namespace
 
-BeatSystem::BeatSystem(const Ventricle& ventricle, const LeftHeartLoop& loop)
+BeatSystem::BeatSystem(const Ventricle& ventricle, std::shared_ptr<const CirculationModel> circulation)
     : ventricle_(ventricle),
-      loop_(loop),
+      circulation_(std::move(circulation)),
+      cavities_(ventricle.cavities()),
       num_c_(ventricle.num_coefficients()),
+      num_cavities_(circulation_->num_cavities()),
+      num_states_(circulation_->num_states()),
       system_(ventricle.make_system()),
       tension_time_(std::numeric_limits<double>::quiet_NaN()) {}
 
@@ -49,31 +52,33 @@ bool BeatSystem::residual(double t, const Vector& y, const Vector& rate, Vector&
   ++cost_.residuals;
   const Vector c = y.head(num_c_);
   const Vector c_rate = rate.head(num_c_);
-  const double p = y[num_c_ + 1];
+  const Vector p = pressures(y);
   const Vector& tau = tension(t);
   const auto wall =
       ventricle_.wall->evaluate({c, {tau.data(), static_cast<std::size_t>(tau.size())}, &c_rate});
   if (!(wall.min_det > 0)) return false;
   min_det_ = wall.min_det;
   max_det_ = wall.max_det;
-  const auto cavity = ventricle_.cavity->evaluate({c});
   out.resize(size());
-  out.head(num_c_) = wall.gradient - p * cavity.gradient;
+  out.head(num_c_) = wall.gradient;
+  for (int k = 0; k < num_cavities_; ++k) {
+    const auto cavity = cavities_[k]->evaluate({c});
+    out.head(num_c_) -= p[k] * cavity.gradient;
+    out[num_c_ + k] = y[num_c_ + k] - cavity.value;
+  }
   for (const auto& spring : ventricle_.springs) out.head(num_c_) += spring->evaluate({c}).gradient;
   const auto& fixed = ventricle_.discretisation.fixed;
   for (int i = 0; i < num_c_; ++i)
     if (fixed[i]) out[i] = c[i];
-  loop_state_ = loop_residual(loop_, rate[num_c_], p, y[num_c_ + 2], rate[num_c_ + 2]);
-  out[num_c_] = y[num_c_] - cavity.value;
-  out[num_c_ + 1] = loop_state_.volume;
-  out[num_c_ + 2] = loop_state_.capacitor;
+  circulating_ = circulation_->rates(states(y), p);
+  out.tail(num_states_) = states(rate) - circulating_.values;
   return true;
 }
 
 bool BeatSystem::factorise(double t, const Vector& y, const Vector& rate, double alpha) {
   const Vector c = y.head(num_c_);
   const Vector c_rate = rate.head(num_c_);
-  const double p = y[num_c_ + 1];
+  const Vector p = pressures(y);
   ++cost_.factorisations;
   {
     const Stopwatch watch(cost_.tangent_s);
@@ -81,72 +86,96 @@ bool BeatSystem::factorise(double t, const Vector& y, const Vector& rate, double
     system_->set_zero();
     ventricle_.wall->add_tangent({c, {tau.data(), static_cast<std::size_t>(tau.size())}, &c_rate}, *system_,
                                  1, alpha);
-    ventricle_.cavity->add_tangent({c}, *system_, -p);
+    for (int k = 0; k < num_cavities_; ++k) cavities_[k]->add_tangent({c}, *system_, -p[k]);
     for (const auto& spring : ventricle_.springs) spring->add_tangent({c}, *system_);
   }
   const Stopwatch watch(cost_.factorisation_s);
   if (!system_->factorise()) return false;
-  volume_gradient_ = ventricle_.cavity->evaluate({c}).gradient;
   const auto& fixed = ventricle_.discretisation.fixed;
-  for (int i = 0; i < num_c_; ++i)
-    if (fixed[i]) volume_gradient_[i] = 0;
-  solved_gradient_ = system_->solve(volume_gradient_);
-  loop_state_ = loop_residual(loop_, rate[num_c_], p, y[num_c_ + 2], rate[num_c_ + 2]);
+  volume_gradient_.resize(num_c_, num_cavities_);
+  solved_gradient_.resize(num_c_, num_cavities_);
+  for (int k = 0; k < num_cavities_; ++k) {
+    volume_gradient_.col(k) = cavities_[k]->evaluate({c}).gradient;
+    for (int i = 0; i < num_c_; ++i)
+      if (fixed[i]) volume_gradient_(i, k) = 0;
+    solved_gradient_.col(k) = system_->solve(volume_gradient_.col(k));
+  }
+  circulating_ = circulation_->rates(states(y), p);
   alpha_ = alpha;
   return true;
 }
 
-// Rows: K δc − g δp = r_c,  δV − gᵀδc = r_V,  α δV + a δp + b δp_c = r_q,  d δp + e δp_c = r_w.
+// Rows, with s = [V, z]: K δc − g δp = r_c,  δV − gᵀδc = r_V,  (α − ∂f/∂s) δs − ∂f/∂p δp = r_s.
 bool BeatSystem::solve(const Vector& rhs, Vector& x) {
   const Stopwatch watch(cost_.linear_solve_s);
   ++cost_.linear_solves;
+  const int n = num_states_, m = num_cavities_;
   const Vector w = system_->solve(rhs.head(num_c_));
-  const double base_volume = rhs[num_c_] + volume_gradient_.dot(w);
-  const double compliance = volume_gradient_.dot(solved_gradient_);
-  Eigen::Matrix2d A;
-  A << alpha_ * compliance + loop_state_.volume_by_pressure, loop_state_.volume_by_capacitor_pressure,
-      loop_state_.capacitor_by_pressure,
-      loop_state_.capacitor_by_capacitor_pressure + alpha_ * loop_state_.capacitor_by_capacitor_rate;
-  const Eigen::Vector2d pressures =
-      A.partialPivLu().solve(Eigen::Vector2d(rhs[num_c_ + 1] - alpha_ * base_volume, rhs[num_c_ + 2]));
+  polyaffine::Matrix A = polyaffine::Matrix::Zero(n + m, n + m);
+  A.topLeftCorner(n, n) = -circulating_.by_states;
+  A.topLeftCorner(n, n).diagonal().array() += alpha_;
+  A.topRightCorner(n, m) = -circulating_.by_pressures;
+  A.bottomLeftCorner(m, m).setIdentity();
+  A.bottomRightCorner(m, m) = -volume_gradient_.transpose() * solved_gradient_;
+  Vector b(n + m);
+  b << rhs.tail(n), rhs.segment(num_c_, m) + volume_gradient_.transpose() * w;
+  const Vector loop = A.partialPivLu().solve(b);
   x.resize(size());
-  x.head(num_c_) = w + pressures[0] * solved_gradient_;
-  x[num_c_] = base_volume + compliance * pressures[0];
-  x.tail<2>() = pressures;
+  x << w + solved_gradient_ * loop.tail(m), loop.head(m), loop.tail(m), loop.segment(m, n - m);
   return x.allFinite();
+}
+
+Vector BeatSystem::states(const Vector& y) const {
+  Vector out(num_states_);
+  out << y.segment(num_c_, num_cavities_), y.tail(num_states_ - num_cavities_);
+  return out;
 }
 
 Vector BeatSystem::pack(const HeartState& state) const {
   Vector y(size());
-  y << state.c, state.volume_mm3, state.pressure_kPa, state.capacitor_pressure_kPa;
+  if (num_cavities_ == 1)
+    y << state.c, state.volume_mm3, state.pressure_kPa, state.capacitor_pressure_kPa;
+  else
+    y << state.c, state.volume_mm3, state.right_volume_mm3, state.pressure_kPa, state.right_pressure_kPa,
+        state.capacitor_pressure_kPa, state.loop;
   return y;
 }
 
 HeartState BeatSystem::unpack(double t, double beat_start_ms, const Vector& y) const {
-  return {t - beat_start_ms, y.head(num_c_), y[num_c_], y[num_c_ + 1], y[num_c_ + 2]};
+  const int m = num_cavities_;
+  HeartState out{t - beat_start_ms, y.head(num_c_), y[num_c_], y[num_c_ + m], y[num_c_ + 2 * m]};
+  if (m == 1) return out;
+  out.right_volume_mm3 = y[num_c_ + 1];
+  out.right_pressure_kPa = y[num_c_ + 3];
+  out.loop = y.tail(num_states_ - m - 1);
+  return out;
 }
 
 Vector BeatSystem::start_consistently(HeartState& state) {
+  const int m = num_cavities_;
+  Vector y = pack(state);
   Vector rate = Vector::Zero(size());
-  const double p_c = state.capacitor_pressure_kPa;
-  rate[num_c_ + 2] = loop_rates(loop_, state.pressure_kPa, p_c).capacitor_pressure_kPa_per_ms;
+  const auto circulate = [&] { return circulation_->rates(states(y), pressures(y)); };
+  rate.tail(num_states_ - m) = circulate().values.tail(num_states_ - m);
   // So large that the elastic part of K + αC does not count.
   constexpr double kAlpha = 1e8;
-  if (!factorise(state.time_ms, pack(state), rate, kAlpha)) return rate;
-  const Vector z = kAlpha * solved_gradient_;
-  const double compliance = z.dot(volume_gradient_);
-  double delta = 0;
+  if (!factorise(state.time_ms, y, rate, kAlpha)) return rate;
+  const polyaffine::Matrix Z = kAlpha * solved_gradient_;
+  const polyaffine::Matrix compliance = volume_gradient_.transpose() * Z;
+  Vector delta = Vector::Zero(m);
   for (int k = 0; k < 50; ++k) {
-    const LoopResidual loop =
-        loop_residual(loop_, compliance * delta, state.pressure_kPa + delta, p_c, rate[num_c_ + 2]);
-    const double step = loop.volume / (compliance + loop.volume_by_pressure);
+    const auto flows = circulate();
+    const Vector step = (compliance - flows.by_pressures.topRows(m))
+                            .partialPivLu()
+                            .solve(Vector(compliance * delta - flows.values.head(m)));
     delta -= step;
-    if (std::abs(step) <= 1e-14 * state.pressure_kPa) break;
+    y.segment(num_c_ + m, m) -= step;
+    if (step.norm() <= 1e-14 * y.segment(num_c_ + m, m).norm()) break;
   }
-  state.pressure_kPa += delta;
-  rate.head(num_c_) = delta * z;
-  rate[num_c_] = compliance * delta;
-  rate[num_c_ + 2] = loop_rates(loop_, state.pressure_kPa, p_c).capacitor_pressure_kPa_per_ms;
+  state = unpack(state.time_ms, 0, y);
+  rate.head(num_c_) = Z * delta;
+  rate.segment(num_c_, m) = compliance * delta;
+  rate.tail(num_states_ - m) = circulate().values.tail(num_states_ - m);
   return rate;
 }
 
@@ -154,10 +183,12 @@ polyaffine::DaeOptions BeatSystem::options(const protocol::Time& time) const {
   polyaffine::DaeOptions out;
   out.relative_tolerance = time.relative_tolerance;
   out.absolute_tolerance = Vector::Constant(size(), time.absolute_tolerance_mm);
-  out.absolute_tolerance[num_c_] = 0.01 * mm3_per_mL;
-  out.absolute_tolerance.tail<2>().setConstant(time.absolute_tolerance_mmHg * kPa_per_mmHg);
+  const int others = size() - num_c_;
+  out.absolute_tolerance.segment(num_c_, num_cavities_).setConstant(0.01 * mm3_per_mL);
+  out.absolute_tolerance.tail(others - num_cavities_)
+      .setConstant(time.absolute_tolerance_mmHg * kPa_per_mmHg);
   out.error_weight = Vector::Ones(size());
-  out.error_weight.tail<3>().setConstant(std::sqrt(num_c_ / 3.0));
+  out.error_weight.tail(others).setConstant(std::sqrt(num_c_ / static_cast<double>(others)));
   out.max_step = time.max_step_ms;
   return out;
 }

@@ -4,12 +4,15 @@
 
 namespace cardiac {
 
-/// The coupled ventricle and circulation as a DAE over y = [c, V, p, p_c]; see run_beats.
+/// The coupled ventricles and circulation as a DAE over y = [c, V, p, z], with a volume and a pressure for
+/// each cavity and the other states z of the circulation (with one ventricle p_c); see run_beats.
 class BeatSystem : public polyaffine::DaeSystem {
  public:
-  BeatSystem(const Ventricle& ventricle, const LeftHeartLoop& loop);
+  BeatSystem(const Ventricle& ventricle, std::shared_ptr<const CirculationModel> circulation);
+  BeatSystem(const Ventricle& ventricle, const LeftHeartLoop& loop)
+      : BeatSystem(ventricle, std::make_shared<LeftHeartCirculation>(loop)) {}
 
-  int size() const override { return num_c_ + 3; }
+  int size() const override { return num_c_ + num_states_ + num_cavities_; }
   bool residual(double t, const polyaffine::Vector& y, const polyaffine::Vector& rate,
                 polyaffine::Vector& out) override;
   bool factorise(double t, const polyaffine::Vector& y, const polyaffine::Vector& rate,
@@ -18,11 +21,11 @@ class BeatSystem : public polyaffine::DaeSystem {
 
   polyaffine::Vector pack(const HeartState& state) const;
   HeartState unpack(double t, double beat_start_ms, const polyaffine::Vector& y) const;
-  /// Moves the pressure of a wall in static equilibrium by the viscous pressure δ of the flow that its valves
-  /// let through, and returns the rates, so that the residual vanishes at the start: with z = C⁻¹ ∂V/∂c and C
-  /// the viscous tangent, ċ = δ z and V̇ = δ zᵀ∂V/∂c = q_mitral − q_aortic at p + δ, solved by Newton's
-  /// method. Without viscosity δ = 0 and ċ is the elastic motion at the rate V̇. On failure (a singular
-  /// tangent) the wall keeps its rest.
+  /// Moves the pressures of a wall in static equilibrium by the viscous pressures δ of the flows that its
+  /// valves let through, and returns the rates, so that the residual vanishes at the start: with Z = C⁻¹
+  /// ∂V/∂c and C the viscous tangent, ċ = Z δ and V̇ = (∂V/∂c)ᵀZ δ, the flows of the circulation at p + δ,
+  /// solved by Newton's method. Without viscosity δ = 0 and ċ is the elastic motion at the rate V̇. On failure
+  /// (a singular tangent) the wall keeps its rest.
   polyaffine::Vector start_consistently(HeartState& state);
   /// Tolerances per unknown. The error norm is a mean over all unknowns: volume and pressures are weighted so
   /// that they count as much as the whole wall, however many coefficients it has.
@@ -39,14 +42,20 @@ class BeatSystem : public polyaffine::DaeSystem {
  private:
   const polyaffine::Vector& tension(double t);
 
+  polyaffine::Vector states(const polyaffine::Vector& y) const;  // V, then z
+  polyaffine::Vector pressures(const polyaffine::Vector& y) const {
+    return y.segment(num_c_ + num_cavities_, num_cavities_);
+  }
+
   const Ventricle& ventricle_;
-  LeftHeartLoop loop_;
-  int num_c_;
+  std::shared_ptr<const CirculationModel> circulation_;
+  std::vector<const polyaffine::FieldEnergy*> cavities_;
+  int num_c_, num_cavities_, num_states_;
   std::unique_ptr<polyaffine::LinearSystem> system_;
   double tension_time_;
   polyaffine::Vector tension_;
-  polyaffine::Vector volume_gradient_, solved_gradient_;  // g and K⁻¹g of the last factorisation
-  LoopResidual loop_state_{};  // at the state evaluated last: valves open and close within a step
+  polyaffine::Matrix volume_gradient_, solved_gradient_;  // g and K⁻¹g of the last factorisation, by cavity
+  CirculationModel::Rates circulating_;  // at the state evaluated last: valves open and close within a step
   double alpha_ = 0;
   double min_det_ = 1, max_det_ = 1;
   SolveCost cost_;

@@ -1,5 +1,8 @@
 #include "cardiac/heart/discretisation.hpp"
 
+#include <algorithm>
+
+#include <cardiac/anatomy/idealised.hpp>
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/kinematics/lagrange.hpp>
 
@@ -19,11 +22,28 @@ polyaffine::SurfacePoints turned(polyaffine::SurfacePoints points) {
 // Of a reduced model: its tangent is dense, 1 GB.
 constexpr int kMostUnknowns = 12000;
 
+std::optional<int> right_label(const polyaffine::TetMesh& mesh) {
+  const auto& found = mesh.boundary_labels();
+  if (std::find(found.begin(), found.end(), kRvEndocardium) == found.end()) return {};
+  return kRvEndocardium;
+}
+
+void check_scheme(bool two_ventricles, protocol::Scheme scheme) {
+  if (two_ventricles == (scheme == protocol::Scheme::aha29)) return;
+  throw polyaffine::InputError(
+      two_ventricles ? "anatomy.scheme: found aha17, but the mesh has two ventricles (a right endocardium); "
+                       "expected aha29"
+                     : "anatomy.scheme: found aha29, but the mesh has no right endocardium (boundary label " +
+                           std::to_string(kRvEndocardium) + "); expected aha17");
+}
+
 }  // namespace
 
 Anatomy build_anatomy(polyaffine::TetMesh mesh, const Protocol& protocol, const ExactGeometry& exact) {
   Anatomy out;
   out.mesh = std::move(mesh);
+  out.labels.rv_endo = right_label(out.mesh);
+  check_scheme(out.labels.rv_endo.has_value(), protocol.anatomy.scheme);
   AnatomyOptions options;
   if (protocol.anatomy.long_axis) options.long_axis = Vec3(protocol.anatomy.long_axis->data());
   options.anterior = Vec3(protocol.anatomy.anterior_direction.data());
@@ -39,6 +59,8 @@ void add_surface_points(const Anatomy& anatomy, const Protocol& protocol, const 
   const auto points = [&](int label) { return geometry.surface_points(anatomy.mesh, {label}, rule); };
   if (protocol.circulation || protocol.cavities)
     discretisation.cavity_points = turned(points(anatomy.labels.endo));
+  if (anatomy.labels.rv_endo && !discretisation.cavity_points.tet.empty())
+    discretisation.right_cavity_points = turned(points(*anatomy.labels.rv_endo));
   if (protocol.boundary.epicardial_stiffness_kPa_per_mm > 0)
     discretisation.epicardium_points = points(anatomy.labels.epi);
 }

@@ -30,8 +30,9 @@ struct ExactGeometry {
   std::function<FibreAxes(const polyaffine::Points& X)> fibres;  ///< see Anatomy
 };
 
-/// The boundary of the mesh carries the labels kEndocardium, kEpicardium and kBase. Throws InputError as its
-/// coordinates and its segments do.
+/// The boundary of the mesh carries the labels kEndocardium, kEpicardium and kBase, with two ventricles also
+/// kRvEndocardium. Throws InputError as its coordinates and its segments do, and when the protocol's scheme is
+/// for another number of ventricles.
 Anatomy build_anatomy(polyaffine::TetMesh mesh, const Protocol& protocol, const ExactGeometry& exact = {});
 
 /// Shape functions with their integration points: a full-order or a reduced model of the same wall.
@@ -46,9 +47,10 @@ struct Discretisation {
   polyaffine::WallPoints points;
   polyaffine::SurfacePoints
       cavity_points;  ///< endocardium, tangents turned so that X_ξ × X_η leaves the cavity
-  polyaffine::SurfacePoints epicardium_points;  ///< empty unless a spring acts there
-  std::vector<char> fixed;                      ///< unknowns held at zero
-  int num_unknowns = 0;                         ///< that are not fixed
+  polyaffine::SurfacePoints right_cavity_points;  ///< the same of the right ventricle; empty without one
+  polyaffine::SurfacePoints epicardium_points;    ///< empty unless a spring acts there
+  std::vector<char> fixed;                        ///< unknowns held at zero
+  int num_unknowns = 0;                           ///< that are not fixed
   bool sparse = false;
 };
 

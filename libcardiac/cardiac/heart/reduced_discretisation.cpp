@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <cardiac/anatomy/biventricular_frames.hpp>
 #include <cardiac/fibres/helix.hpp>
 #include <polyaffine/geometry/geodesic_regions.hpp>
 #include <polyaffine/kinematics/region_frames.hpp>
@@ -49,7 +50,7 @@ std::vector<std::vector<Monomial>> independent(const SegmentFrames& frames,
   std::vector<std::vector<Monomial>> out(frames.num_frames(), all);
   const auto thin = [&](int last) { std::erase_if(out[last], [](const Monomial& m) { return m[1] == 1; }); };
   for (const FrameRing& ring : frames.layout().rings) thin(ring.first_frame + ring.nodes - 1);
-  if (frames.num_frames() > frames.layout().num_nodes()) thin(frames.num_frames() - 1);
+  if (frames.base_frames()) thin(frames.layout().num_nodes() + frames.layout().rings.back().nodes - 1);
   return out;
 }
 
@@ -60,13 +61,12 @@ struct Cells {
 };
 
 // The tents are smooth in the cells between their kinks.
-Cells tent_cells(const Anatomy& anatomy, const SegmentFrames& frames, const WallPoints& candidates) {
+Cells tent_cells(const SegmentFrames& frames, const WallPoints& candidates) {
   Cells out{{}, Points(3, candidates.barycentric.cols())};
   for (Eigen::Index q = 0; q < out.place.cols(); ++q) {
-    const CoordinateSample at = anatomy.coordinates->sample(candidates.tet[q], candidates.barycentric.col(q));
-    const auto c = frames.cell(at.u, at.psi);
+    const auto c = frames.point_cell(candidates.tet[q], candidates.barycentric.col(q));
     out.cell.push_back(c.index);
-    out.place.col(q) = Vec3(c.u, c.psi, at.t);
+    out.place.col(q) = c.place;
   }
   return out;
 }
@@ -119,10 +119,14 @@ Cells region_cells(const Anatomy& anatomy, const Discretisation& d, const WallPo
     const double from_centre = std::remainder(at.psi - centre[region], 2 * polyaffine::kPi);
     const Vec3 X = coordinates.position(tet, candidates.barycentric.col(q)) - coordinates.base_centre();
     out.cell.push_back(region);
-    out.place.col(q) = region == d.layout.cap()
-                           ? Vec3(X.dot(coordinates.anterior()),
-                                  X.dot(coordinates.axis().cross(coordinates.anterior())), at.t)
-                           : Vec3(at.u, from_centre, at.t);
+    if (region > d.layout.cap()) {
+      const auto right = coordinates.right()->sample(tet, candidates.barycentric.col(q));
+      out.place.col(q) = Vec3(at.u, right.psi, right.t);
+    } else
+      out.place.col(q) = region == d.layout.cap()
+                             ? Vec3(X.dot(coordinates.anterior()),
+                                    X.dot(coordinates.axis().cross(coordinates.anterior())), at.t)
+                             : Vec3(at.u, from_centre, at.t);
     low.col(region) = low.col(region).cwiseMin(out.place.col(q));
     high.col(region) = high.col(region).cwiseMax(out.place.col(q));
   }
@@ -137,20 +141,26 @@ Cells region_cells(const Anatomy& anatomy, const Discretisation& d, const WallPo
 polyaffine::SurfacePoints compressed(const Anatomy& anatomy, const Discretisation& discretisation,
                                      const polyaffine::SurfacePoints& points) {
   const WallPoints places{points.tet, points.barycentric, points.weights, points.starts};
-  const Cells cells = discretisation.frames ? tent_cells(anatomy, *discretisation.frames, places)
+  const Cells cells = discretisation.frames ? tent_cells(*discretisation.frames, places)
                                             : region_cells(anatomy, discretisation, places);
   return polyaffine::compress_surface_cells(points, cells.cell, cells.place.topRows<2>(), kSurfaceDegree);
 }
 
 // Tent weights, with boundary frames at the base that carry only functions with a factor l.
 void add_tent_basis(const Anatomy& anatomy, const Protocol& protocol, Discretisation& out) {
-  out.frames = std::make_shared<SegmentFrames>(anatomy.coordinates, out.layout, true);
-  out.pressure_frames = std::make_shared<SegmentFrames>(anatomy.coordinates, out.layout, false);
+  const auto frames = [&](bool base_frames) -> std::shared_ptr<const SegmentFrames> {
+    if (anatomy.coordinates->right())
+      return std::make_shared<BiventricularFrames>(anatomy.coordinates, out.layout, base_frames);
+    return std::make_shared<SegmentFrames>(anatomy.coordinates, out.layout, base_frames);
+  };
+  out.frames = frames(true);
+  out.pressure_frames = frames(false);
+  const auto* both = dynamic_cast<const BiventricularFrames*>(out.frames.get());
   const bool heart_axes = protocol.reduction.axes == protocol::Axes::heart;
   std::vector<FrameFunctions> functions;
   const auto own = independent(*out.frames, monomials(protocol));
   for (int i = 0; i < out.frames->num_frames(); ++i) {
-    FrameFunctions f{own[i], heart_axes && i != out.layout.cap()};
+    FrameFunctions f{own[i], heart_axes && i != out.layout.cap() && !(both && both->is_right(i))};
     if (i >= out.layout.num_nodes()) std::erase_if(f.monomials, [](const Monomial& m) { return m[0] == 0; });
     functions.push_back(f);
   }
@@ -174,7 +184,7 @@ void add_sigmoid_basis(const Anatomy& anatomy, const Protocol& protocol, Discret
     distances.row(i).minCoeff(&deepest);
     Eigen::Index corner = 0, tet = 0;
     (mesh.tets().array() == static_cast<int>(deepest)).maxCoeff(&corner, &tet);
-    const CoordinateSample at = anatomy.coordinates->sample(static_cast<int>(tet), Vec4::Unit(corner));
+    const CoordinateSample at = anatomy.coordinates->wall_sample(static_cast<int>(tet), Vec4::Unit(corner));
     nodes[i] = {mesh.points().col(deepest), orthonormal_axes(at)};
   }
   const auto weights = std::make_shared<polyaffine::RegionWeights>(
@@ -216,12 +226,12 @@ Discretisation reduced_discretisation(const Anatomy& anatomy, const Protocol& pr
               : tent_candidates(geometry, *out.frames);
   const WallPoints& candidates = from.wall;
   const Cells cells =
-      sigmoid ? region_cells(anatomy, out, candidates) : tent_cells(anatomy, *out.frames, candidates);
+      sigmoid ? region_cells(anatomy, out, candidates) : tent_cells(*out.frames, candidates);
   out.points = protocol.reduction.integration == protocol::Integration::gauss
                    ? polyaffine::group_cells(candidates, cells.cell)
                    : polyaffine::compress_cells(candidates, cells.cell, cells.place, kCellDegree);
   add_surface_points(anatomy, protocol, geometry, from.face, out);
-  for (auto* points : {&out.cavity_points, &out.epicardium_points})
+  for (auto* points : {&out.cavity_points, &out.right_cavity_points, &out.epicardium_points})
     if (!points->tet.empty()) *points = compressed(anatomy, out, *points);
   return out;
 }

@@ -19,37 +19,43 @@ namespace {
 constexpr double kCrushed = 0.5;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-VentricleSummary summarise(const HeartPath& path, const KeySteps& key, bool has_beat) {
+VentricleSummary summarise(const HeartPath& path, const KeySteps& key, bool right, bool has_beat) {
+  const auto volume_mL = [right](const HeartState& s) {
+    return (right ? s.right_volume_mm3 : s.volume_mm3) / mm3_per_mL;
+  };
+  const auto pressure_mmHg = [right](const HeartState& s) {
+    return (right ? s.right_pressure_kPa : s.pressure_kPa) / kPa_per_mmHg;
+  };
   VentricleSummary out;
-  out.name = "lv";
-  double peak = -std::numeric_limits<double>::infinity();
+  out.name = right ? "rv" : "lv";
+  out.peak_pressure_mmHg = -std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < path.steps.size(); ++k) {
     const HeartState& s = path.steps[k];
-    peak = std::max(peak, s.pressure_kPa);
-    out.samples.push_back({s.time_ms, s.volume_mm3 / mm3_per_mL, s.pressure_kPa / kPa_per_mmHg,
-                           key.phases.empty() ? Phase::filling : key.phases[k]});
+    out.peak_pressure_mmHg = std::max(out.peak_pressure_mmHg, pressure_mmHg(s));
+    out.samples.push_back(
+        {s.time_ms, volume_mL(s), pressure_mmHg(s), key.phases.empty() ? Phase::filling : key.phases[k]});
   }
   out.edv_mL = out.esv_mL = out.sv_mL = out.ef_percent = out.edp_mmHg = kNone;
-  out.peak_pressure_mmHg = peak / kPa_per_mmHg;
   out.ed_time_ms = path.steps[key.ed].time_ms;
   out.es_time_ms = path.steps[key.es].time_ms;
   if (!has_beat) return out;
-  out.edv_mL = path.steps[key.ed].volume_mm3 / mm3_per_mL;
-  out.esv_mL = path.steps[key.es].volume_mm3 / mm3_per_mL;
+  out.edv_mL = volume_mL(path.steps[key.ed]);
+  out.esv_mL = volume_mL(path.steps[key.es]);
   out.sv_mL = out.edv_mL - out.esv_mL;
   out.ef_percent = 100 * out.sv_mL / out.edv_mL;
-  out.edp_mmHg = path.steps[key.ed].pressure_kPa / kPa_per_mmHg;
+  out.edp_mmHg = pressure_mmHg(path.steps[key.ed]);
   return out;
 }
 
 std::vector<SegmentInfo> segment_info(const Ventricle& ventricle) {
   const Anatomy& anatomy = *ventricle.anatomy;
-  const auto volumes = segment_volumes(anatomy.mesh, anatomy.segment);
+  const int count = num_segments(*anatomy.coordinates);
+  const auto volumes = segment_volumes(anatomy.mesh, anatomy.segment, count);
   std::vector<SegmentInfo> out;
-  for (int s = 1; s <= kAhaSegments; ++s) out.push_back({s, aha_name(s), volumes[s - 1] / mm3_per_mL, {}});
+  for (int s = 1; s <= count; ++s) out.push_back({s, aha_name(s), volumes[s - 1] / mm3_per_mL, {}});
   if (!ventricle.contraction) return out;
-  Vector time = Vector::Zero(kAhaSegments);
-  Vector weight = Vector::Zero(kAhaSegments);
+  Vector time = Vector::Zero(count);
+  Vector weight = Vector::Zero(count);
   const auto& points = ventricle.discretisation.points;
   for (std::size_t q = 0; q < points.tet.size(); ++q) {
     const int s = anatomy.segment[points.tet[q]] - 1;
@@ -57,31 +63,49 @@ std::vector<SegmentInfo> segment_info(const Ventricle& ventricle) {
     time[s] += points.weights[k] * ventricle.contraction->delay_ms[k];
     weight[s] += points.weights[k];
   }
-  for (int s = 0; s < kAhaSegments; ++s)
+  for (int s = 0; s < count; ++s)
     if (weight[s] > 0) out[s].activation_ms = time[s] / weight[s];
   return out;
 }
 
-}  // namespace
+std::vector<Phase> phases(const HeartPath& path, const protocol::Circulation& circulation, bool right) {
+  const auto n = static_cast<Eigen::Index>(path.steps.size());
+  Vector before(n), pressure(n), behind(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const HeartState& s = path.steps[k];
+    pressure[k] = right ? s.right_pressure_kPa : s.pressure_kPa;
+    behind[k] = right ? s.loop[0] : s.capacitor_pressure_kPa;
+    if (s.loop.size() > 0) before[k] = right ? s.loop[2] : s.loop[1];
+  }
+  if (path.steps.front().loop.size() == 0)
+    return classify_phases(left_heart_loop(circulation), pressure, behind);
+  const TwoSidedLoop loop = two_sided_loop(circulation);
+  const auto& side = right ? loop.right : loop.left;
+  return classify_phases(side.inlet, side.outlet, before, pressure, behind);
+}
 
-KeySteps key_steps(const HeartPath& path, const Protocol& protocol) {
+KeySteps find_key_steps(const HeartPath& path, const Protocol& protocol, bool right) {
   KeySteps out;
   if (path.steps.empty()) return out;
   out.es = path.steps.size() - 1;
   if (!protocol.circulation) return out;
-  const auto n = static_cast<Eigen::Index>(path.steps.size());
-  Vector pressure(n), capacitor(n);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    pressure[k] = path.steps[k].pressure_kPa;
-    capacitor[k] = path.steps[k].capacitor_pressure_kPa;
-  }
-  out.phases = classify_phases(left_heart_loop(*protocol.circulation), pressure, capacitor);
+  out.phases = phases(path, *protocol.circulation, right);
   for (std::size_t k = 1; k < out.phases.size(); ++k) {
     if (out.phases[k] == Phase::isovolumetric_contraction && out.phases[k - 1] == Phase::filling)
       out.ed = k - 1;
     if (out.phases[k] != Phase::ejection && out.phases[k - 1] == Phase::ejection) out.es = k - 1;
   }
   return out;
+}
+
+}  // namespace
+
+KeySteps key_steps(const HeartPath& path, const Protocol& protocol) {
+  return find_key_steps(path, protocol, false);
+}
+
+KeySteps right_key_steps(const HeartPath& path, const Protocol& protocol) {
+  return find_key_steps(path, protocol, true);
 }
 
 std::vector<ControlNode> segment_nodes(const Anatomy& anatomy, const Protocol& protocol) {
@@ -122,7 +146,9 @@ BeatResult describe_path(const Ventricle& ventricle, const std::vector<ControlNo
   if (path.steps.empty()) return out;
 
   const KeySteps key = key_steps(path, protocol);
-  out.ventricles.push_back(summarise(path, key, out.has_beat));
+  out.ventricles.push_back(summarise(path, key, false, out.has_beat));
+  if (ventricle.right_cavity)
+    out.ventricles.push_back(summarise(path, right_key_steps(path, protocol), true, out.has_beat));
   const auto& points = told.discretisation.points;
   const SegmentGauge gauge(*anatomy.coordinates, points);
   const polyaffine::DisplacementMap displacement(*d.basis, points.tet, points.barycentric);

@@ -13,6 +13,8 @@ struct KeySteps {
   std::vector<Phase> phases;  ///< of every step; empty without circulation
 };
 KeySteps key_steps(const HeartPath& path, const Protocol& protocol);
+/// The same of the right ventricle, by its own valves; only with two ventricles.
+KeySteps right_key_steps(const HeartPath& path, const Protocol& protocol);
 
 /// A node for the affine map of every AHA segment: its control node where the protocol's frames belong to the
 /// segments, otherwise the one it would have then.

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include <cardiac/activation/activation.hpp>
+#include <cardiac/anatomy/right_ventricle.hpp>
 #include <cardiac/fibres/helix.hpp>
 #include <cardiac/heart/trained_rule.hpp>
 #include <polyaffine/core/error.hpp>
@@ -28,7 +29,8 @@ std::vector<ActivationSite> sites(const Anatomy& anatomy, const protocol::Activa
     Vec3 middle = Vec3::Zero();
     for (const int p : anatomy.mesh.surface_points({anatomy.labels.endo})) {
       const Vec3 X = anatomy.mesh.points().col(p);
-      if (aha_segment(anatomy.coordinates->long_axis_height(X), anatomy.coordinates->angle(X)) != segment)
+      if (aha_segment(anatomy.coordinates->long_axis_height(X), anatomy.coordinates->sector_angle(X)) !=
+          segment)
         continue;
       own.push_back(p);
       middle += X;
@@ -53,11 +55,10 @@ Vector activation(const Anatomy& anatomy, const Protocol& protocol, const polyaf
   const auto& a = *protocol.activation;
   const auto n = static_cast<Eigen::Index>(points.tet.size());
   if (a.mode == protocol::ActivationMode::uniform) return Vector::Constant(n, a.onset_ms);
-  const HelixAngles angles{protocol.fibres->endo_angle_deg, protocol.fibres->epi_angle_deg,
-                           protocol.fibres->sheet_angle_deg};
+  const HelixAngles angles = helix_angles(*protocol.fibres);
   polyaffine::Points fibre(3, anatomy.mesh.num_tets());
   for (int t = 0; t < anatomy.mesh.num_tets(); ++t)
-    fibre.col(t) = helix_axes(anatomy.coordinates->sample(t, Vec4::Constant(0.25)), angles).col(0);
+    fibre.col(t) = wall_fibres(*anatomy.coordinates, t, Vec4::Constant(0.25), angles).col(0);
   const Vector at_vertices = activation_times(
       anatomy.mesh, fibre, {a.conduction_along_fibre_mm_per_ms, a.conduction_across_fibre_mm_per_ms},
       sites(anatomy, a));
@@ -100,6 +101,14 @@ std::shared_ptr<const FieldEnergy> normal_spring(const polyaffine::Basis& basis,
           std::make_shared<polyaffine::SurfaceSpring>(stiffness, std::move(normals))});
 }
 
+std::shared_ptr<const FieldEnergy> cavity_volume(const polyaffine::Basis& basis,
+                                                 const polyaffine::SurfacePoints& points,
+                                                 const Vec3& base_centre) {
+  return std::make_shared<FieldEnergy>(polyaffine::surface_table(basis, points, base_centre),
+                                       std::vector<std::shared_ptr<const polyaffine::Law>>{
+                                           std::make_shared<polyaffine::SignedVolume>(1.0 / 3)});
+}
+
 }  // namespace
 
 Vector ContractionField::tension(double time_ms) const {
@@ -111,9 +120,16 @@ Vector ContractionField::tension(double time_ms) const {
 std::unique_ptr<polyaffine::LinearSystem> Ventricle::make_system() const {
   if (!discretisation.sparse) return polyaffine::dense_system(num_coefficients(), discretisation.fixed);
   std::vector<const polyaffine::FieldTable*> tables{&wall->table()};
-  if (cavity) tables.push_back(&cavity->table());
+  for (const FieldEnergy* one : cavities()) tables.push_back(&one->table());
   for (const auto& spring : springs) tables.push_back(&spring->table());
   return polyaffine::sparse_system(tables, discretisation.fixed);
+}
+
+std::vector<const FieldEnergy*> Ventricle::cavities() const {
+  std::vector<const FieldEnergy*> out;
+  for (const auto* one : {&cavity, &right_cavity})
+    if (*one) out.push_back(one->get());
+  return out;
 }
 
 Discretisation discretise(const std::shared_ptr<const Anatomy>& anatomy, const Protocol& protocol,
@@ -146,11 +162,11 @@ Ventricle assemble_ventricle(std::shared_ptr<const Anatomy> anatomy, const Proto
   ++out.built[d.sparse ? "full order" : "reduction"];
   if (!d.cavity_points.tet.empty()) {
     ++out.built["cavity"];
-    out.cavity = std::make_shared<FieldEnergy>(
-        polyaffine::surface_table(*d.basis, d.cavity_points, anatomy->coordinates->base_centre()),
-        std::vector<std::shared_ptr<const polyaffine::Law>>{
-            std::make_shared<polyaffine::SignedVolume>(1.0 / 3)});
+    out.cavity = cavity_volume(*d.basis, d.cavity_points, anatomy->coordinates->base_centre());
   }
+  if (!d.right_cavity_points.tet.empty())
+    out.right_cavity =
+        cavity_volume(*d.basis, d.right_cavity_points, anatomy->coordinates->right()->base_centre());
   if (!d.epicardium_points.tet.empty())
     out.springs.push_back(
         normal_spring(*d.basis, d.epicardium_points, protocol.boundary.epicardial_stiffness_kPa_per_mm));
@@ -177,14 +193,15 @@ polyaffine::EquilibriumProblem loaded_ventricle(const Ventricle& ventricle, cons
     };
   }
   problem.terms.push_back(std::move(wall));
-  if (ventricle.cavity && (from.pressure_kPa != 0 || to.pressure_kPa != 0)) {
-    polyaffine::PotentialTerm cavity{ventricle.cavity};
-    cavity.scale = [p0 = from.pressure_kPa, p1 = to.pressure_kPa](double load) {
-      return -(1 - load) * p0 - load * p1;
-    };
-    cavity.wall = false;
-    problem.terms.push_back(std::move(cavity));
-  }
+  const auto press = [&](const std::shared_ptr<const FieldEnergy>& cavity, double p0, double p1) {
+    if (!cavity || (p0 == 0 && p1 == 0)) return;
+    polyaffine::PotentialTerm term{cavity};
+    term.scale = [p0, p1](double load) { return -(1 - load) * p0 - load * p1; };
+    term.wall = false;
+    problem.terms.push_back(std::move(term));
+  };
+  press(ventricle.cavity, from.pressure_kPa, to.pressure_kPa);
+  press(ventricle.right_cavity, from.right_pressure_kPa, to.right_pressure_kPa);
   for (const auto& spring : ventricle.springs) {
     polyaffine::PotentialTerm term{spring};
     term.wall = false;

@@ -19,13 +19,14 @@ struct ContractionField {
   polyaffine::Vector tension(double time_ms) const;
 };
 
-/// A left ventricle assembled from the parts that a protocol names, full order or reduced; parts it does not
-/// name are null. Immutable once built.
+/// One or two ventricles assembled from the parts that a protocol names, full order or reduced; parts it does
+/// not name are null. Immutable once built.
 struct Ventricle {
   std::shared_ptr<const Anatomy> anatomy;
   Discretisation discretisation;
   std::shared_ptr<const polyaffine::FieldEnergy> wall;
-  std::shared_ptr<const polyaffine::FieldEnergy> cavity;  ///< its volume, mm³
+  std::shared_ptr<const polyaffine::FieldEnergy> cavity;        ///< of the left ventricle: its volume, mm³
+  std::shared_ptr<const polyaffine::FieldEnergy> right_cavity;  ///< null without a right ventricle
   std::vector<std::shared_ptr<const polyaffine::FieldEnergy>> springs;
   std::shared_ptr<const ContractionField> contraction;
   std::shared_ptr<const Ventricle> all_points;  ///< the same without a trained rule; null where there is none
@@ -33,7 +34,9 @@ struct Ventricle {
 
   int num_coefficients() const { return wall->table().num_unknowns(); }
   double cavity_volume(const polyaffine::Vector& c) const { return cavity->evaluate({c}).value; }
-  /// A system with the pattern of the wall, the cavity and the springs.
+  /// The cavities that there are, left before right.
+  std::vector<const polyaffine::FieldEnergy*> cavities() const;
+  /// A system with the pattern of the wall, the cavities and the springs.
   std::unique_ptr<polyaffine::LinearSystem> make_system() const;
 };
 
@@ -53,6 +56,7 @@ Ventricle build_ventricle(std::shared_ptr<const Anatomy> anatomy, const Protocol
 struct WallLoad {
   double pressure_kPa = 0;
   polyaffine::Vector tension{};
+  double right_pressure_kPa = 0;
 };
 
 /// The equilibrium on the straight way between two loads: `from` at load parameter 0, `to` at 1. Tensions are

@@ -40,7 +40,8 @@ Comparison compare(const Ventricle& reduced, const Ventricle& full, const HeartS
   const auto& elements = dynamic_cast<const polyaffine::LagrangeBasis&>(*full.discretisation.basis);
   const auto& points = full.discretisation.points;
   const Vector tension = full.contraction ? full.contraction->tension(clock_ms) : Vector();
-  const auto problem = loaded_ventricle(full, state.pressure_kPa, tension);
+  const auto problem = loaded_ventricle(full, {0, Vector::Zero(tension.size())},
+                                        {state.pressure_kPa, tension, state.right_pressure_kPa});
   const auto system = full.make_system();
   Vector c = nodal_displacement(elements, *reduced.discretisation.basis, state.c);
   polyaffine::NewtonOptions options;
@@ -66,7 +67,12 @@ Comparison compare(const Ventricle& reduced, const Ventricle& full, const HeartS
   const Vector norm = u.colwise().squaredNorm();
   const double size = points.weights.dot(norm);
   out.displacement_error = size > 0 ? std::sqrt(points.weights.dot(error) / size) : 0;
-  if (full.cavity) out.volume_error = reduced.cavity_volume(state.c) / full.cavity_volume(c) - 1;
+  const auto cavities = full.cavities();
+  for (std::size_t k = 0; k < cavities.size(); ++k) {
+    const double off =
+        reduced.cavities()[k]->evaluate({state.c}).value / cavities[k]->evaluate({c}).value - 1;
+    if (std::abs(off) > std::abs(out.volume_error)) out.volume_error = off;
+  }
   out.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return out;
 }

@@ -1,5 +1,6 @@
 #include "cardiac/heart/wall.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <cardiac/fibres/helix.hpp>
@@ -60,21 +61,29 @@ std::vector<double> apical_factor(const Anatomy& anatomy, const Discretisation& 
 
 }  // namespace
 
+HelixAngles helix_angles(const protocol::Fibres& f) {
+  return {f.endo_angle_deg, f.epi_angle_deg, f.sheet_angle_deg, f.rv_endo_angle_deg, f.rv_epi_angle_deg};
+}
+
 RegionFactors region_factors(const Anatomy& anatomy, const Protocol& protocol,
                              const polyaffine::WallPoints& points) {
   RegionFactors out;
   if (protocol.regions.empty()) return out;
+  const int segments = num_segments(*anatomy.coordinates);
+  for (const auto& region : protocol.regions)
+    if (const int last = *std::max_element(region.segments.begin(), region.segments.end()); last > segments)
+      throw polyaffine::InputError("region.segments: found segment " + std::to_string(last) +
+                                   ", expected at most " + std::to_string(segments) +
+                                   ": the mesh has no right ventricle");
   const std::size_t n = points.tet.size();
   out.stiffness.assign(n, 1.0);
   out.tension.assign(n, 1.0);
   out.delay_ms.assign(n, 0.0);
   for (std::size_t q = 0; q < n; ++q) {
-    const auto X =
-        anatomy.coordinates->position(points.tet[q], points.barycentric.col(static_cast<Eigen::Index>(q)));
-    const double height = anatomy.coordinates->long_axis_height(X);
-    const double psi = anatomy.coordinates->angle(X);
     for (const auto& region : protocol.regions) {
-      const auto shares = segment_shares(height, psi, region.border_width_percent / 100);
+      const auto shares =
+          shares_at(*anatomy.coordinates, points.tet[q], points.barycentric.col(static_cast<Eigen::Index>(q)),
+                    region.border_width_percent / 100);
       double share = 0;
       for (const int s : region.segments) share += shares[s - 1];
       out.stiffness[q] *= 1 + share * (region.stiffness_factor - 1);
@@ -96,9 +105,8 @@ std::shared_ptr<const polyaffine::FieldEnergy> build_wall(const Anatomy& anatomy
     if (anatomy.fibres)
       fibres = anatomy.fibres(anatomy.coordinates->space().positions(points.tet, points.barycentric));
     else
-      fibres = helix_fibres(*anatomy.coordinates, points.tet, points.barycentric,
-                            {protocol.fibres->endo_angle_deg, protocol.fibres->epi_angle_deg,
-                             protocol.fibres->sheet_angle_deg});
+      fibres =
+          helix_fibres(*anatomy.coordinates, points.tet, points.barycentric, helix_angles(*protocol.fibres));
   }
   const protocol::Tissue& tissue = protocol.tissue;
   std::vector<LawPointer> laws{passive_law(tissue, fibres, factors.stiffness)};

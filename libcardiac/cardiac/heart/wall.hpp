@@ -5,11 +5,15 @@
 #include <string>
 #include <vector>
 
+#include <cardiac/fibres/helix.hpp>
 #include <cardiac/heart/discretisation.hpp>
 #include <cardiac/protocol/protocol.hpp>
 #include <polyaffine/energy/field_energy.hpp>
 
 namespace cardiac {
+
+/// The angles of a protocol's fibres.
+HelixAngles helix_angles(const protocol::Fibres& fibres);
 
 /// How often the builder of each part ran; a part that is not in it was not built.
 using BuildCount = std::map<std::string, int>;

@@ -17,7 +17,7 @@ Table activation_table() {
       .key("onset_ms", &Activation::onset_ms,
            {.unit = "ms", .range = {0, 10000}, .meaning = "time of the first excitation in the beat"})
       .key("site_segments", &Activation::site_segments,
-           {.range = {1, 17},
+           {.range = {1, 29},
             .meaning = "AHA segments whose endocardial centre is a site",
             .used_with = "mode",
             .used_values = {"sites"}})
@@ -78,12 +78,67 @@ Table contraction_table() {
 Table cavities_table() {
   TableBuilder table("cavities", "Prescribed pressure in the cavity; not together with [circulation].",
                      &Protocol::cavities);
-  table.key("pressure_mmHg", &Cavities::pressure_mmHg,
-            {.unit = "mmHg",
-             .range = {-100, 1000},
-             .meaning = "pressure that is reached from zero, in time.load_steps steps; negative: suction",
-             .required = true});
+  table
+      .key("pressure_mmHg", &Cavities::pressure_mmHg,
+           {.unit = "mmHg",
+            .range = {-100, 1000},
+            .meaning = "pressure that is reached from zero, in time.load_steps steps; negative: suction",
+            .required = true})
+      .key("right_pressure_mmHg", &Cavities::right_pressure_mmHg,
+           {.unit = "mmHg",
+            .range = {0, 1000},
+            .meaning = "the same in the right ventricle, on a mesh that has one"});
   return table.build();
+}
+
+// What the closed loop of two ventricles has beside the left ventricle's.
+void add_right_circulation(TableBuilder<std::optional<Circulation>>& table) {
+  const std::string unit = "mmHg·s/mL";
+  const std::string only = " (two ventricles only)";
+  table
+      .key("right_filling_pressure_mmHg", &Circulation::right_filling_pressure_mmHg,
+           {.unit = "mmHg",
+            .range = {0, 100},
+            .meaning = "pressure before the tricuspid valve (right atrium) when the first beat begins; with "
+                       "two ventricles filling_pressure_mmHg too is only the first value of that before the "
+                       "mitral valve" +
+                       only})
+      .key("tricuspid_resistance_mmHg_s_per_mL", &Circulation::tricuspid_resistance_mmHg_s_per_mL,
+           {.unit = unit,
+            .range = above_zero(100),
+            .meaning = "resistance of the open tricuspid valve" + only})
+      .key("pulmonary_valve_resistance_mmHg_s_per_mL", &Circulation::pulmonary_valve_resistance_mmHg_s_per_mL,
+           {.unit = unit,
+            .range = above_zero(100),
+            .meaning = "resistance of the open pulmonary valve" + only})
+      .key("pulmonary_characteristic_resistance_mmHg_s_per_mL",
+           &Circulation::pulmonary_characteristic_resistance_mmHg_s_per_mL,
+           {.unit = unit,
+            .range = {0, 100},
+            .meaning = "resistance between the pulmonary valve and the compliance" + only})
+      .key("pulmonary_peripheral_resistance_mmHg_s_per_mL",
+           &Circulation::pulmonary_peripheral_resistance_mmHg_s_per_mL,
+           {.unit = unit,
+            .range = above_zero(1000),
+            .meaning = "resistance of the lungs, from the compliance to the pulmonary veins" + only,
+            .source = "Regazzoni 2022: 0.046 + 0.0015"})
+      .key("pulmonary_compliance_mL_per_mmHg", &Circulation::pulmonary_compliance_mL_per_mmHg,
+           {.unit = "mL/mmHg",
+            .range = above_zero(200),
+            .meaning = "compliance of the pulmonary arteries" + only})
+      .key("pulmonary_venous_compliance_mL_per_mmHg", &Circulation::pulmonary_venous_compliance_mL_per_mmHg,
+           {.unit = "mL/mmHg",
+            .range = above_zero(500),
+            .meaning = "compliance of the pulmonary veins and the left atrium" + only,
+            .source = "Regazzoni 2022: 16"})
+      .key("systemic_venous_compliance_mL_per_mmHg", &Circulation::systemic_venous_compliance_mL_per_mmHg,
+           {.unit = "mL/mmHg",
+            .range = above_zero(500),
+            .meaning = "compliance of the systemic veins and the right atrium" + only})
+      .key("initial_pulmonary_pressure_mmHg", &Circulation::initial_pulmonary_pressure_mmHg,
+           {.unit = "mmHg",
+            .range = {0, 300},
+            .meaning = "pressure of the pulmonary compliance when the first beat begins" + only});
 }
 
 Table circulation_table() {
@@ -128,6 +183,7 @@ Table circulation_table() {
            {.unit = "mmHg",
             .range = {0, 300},
             .meaning = "pressure of the compliance when the first beat begins"});
+  add_right_circulation(table);
   return table.build();
 }
 
@@ -193,7 +249,7 @@ Table region_table() {
                      &Protocol::regions);
   table.key("name", &RegionOverride::name, {.meaning = "what the region is called in reports"})
       .key("segments", &RegionOverride::segments,
-           {.range = {1, 17},
+           {.range = {1, 29},
             .meaning = "AHA segments of the region; each belongs to one region at most",
             .required = true})
       .key("tension_factor", &RegionOverride::tension_factor,

@@ -30,12 +30,14 @@ Table mesh_table() {
       .key("length_unit", &Mesh::length_unit,
            {.meaning = "length unit of the coordinates in the mesh file; required with file, never guessed",
             .used_with = "file"})
-      .key("shape", &Mesh::shape,
-           {.meaning =
-                "idealised truncated ellipsoid: human_lv (human-sized left ventricle) or land_ellipsoid "
-                "(endocardial semi-axes 7 and 17 mm, epicardial 10 and 20 mm, base at z = 5 mm)",
-            .source = "land_ellipsoid: Land 2015, problem 2",
-            .absent = "the mesh is read from file"})
+      .key(
+          "shape", &Mesh::shape,
+          {.meaning =
+               "idealised shape: truncated ellipsoid human_lv (human-sized left ventricle) or land_ellipsoid "
+               "(endocardial semi-axes 7 and 17 mm, epicardial 10 and 20 mm, base at z = 5 mm); "
+               "human_biventricle: human-sized left and right ventricle",
+           .source = "land_ellipsoid: Land 2015, problem 2",
+           .absent = "the mesh is read from file"})
       .key("size_mm", &Mesh::size_mm,
            {.unit = "mm",
             .range = above_zero(50),
@@ -63,14 +65,17 @@ Table anatomy_table() {
   TableBuilder table("anatomy", "How the ventricle lies and is divided into segments.", &Protocol::anatomy);
   table
       .key("scheme", &Anatomy::scheme,
-           {.meaning = "division into segments: 17 of the left ventricle", .source = "AHA, Cerqueira 2002"})
+           {.meaning = "division into segments: aha17, those of a left ventricle; aha29, with twelve more of "
+                       "the right free wall, for a mesh of two ventricles",
+            .source = "AHA, Cerqueira 2002"})
       .key("long_axis", &Anatomy::long_axis,
            {.meaning = "direction from apex to base in mesh coordinates, of any length",
             .absent = "from the apex to the centre of the base, found on the mesh"})
-      .key(
-          "anterior_direction", &Anatomy::anterior_direction,
-          {.meaning = "direction from the long axis to the anterior wall in mesh coordinates, of any length; "
-                      "its part across the long axis counts, so it must not be parallel to it"});
+      .key("anterior_direction", &Anatomy::anterior_direction,
+           {.meaning =
+                "direction from the long axis to the anterior wall in mesh coordinates, of any length; "
+                "its part across the long axis counts, so it must not be parallel to it; a right ventricle "
+                "tells where anterior is, and this is not used"});
   return table.build();
 }
 
@@ -237,7 +242,19 @@ Table fibres_table() {
       .key("sheet_angle_deg", &Fibres::sheet_angle_deg,
            {.unit = "deg",
             .range = {-90, 90},
-            .meaning = "angle of the sheet direction from the wall normal, about the fibre"});
+            .meaning = "angle of the sheet direction from the wall normal, about the fibre"})
+      .key("rv_endo_angle_deg", &Fibres::rv_endo_angle_deg,
+           {.unit = "deg",
+            .range = {-180, 180},
+            .meaning = "helix angle at the endocardium of the right free wall",
+            .source = "Bayer 2012"})
+      .key(
+          "rv_epi_angle_deg", &Fibres::rv_epi_angle_deg,
+          {.unit = "deg",
+           .range = {-180, 180},
+           .meaning = "helix angle at the epicardium of the right free wall; -60 and 120 are the same fibre, "
+                      "to which the angle turns through circumferential or through longitudinal fibres",
+           .source = "Bayer 2012"});
   return table.build();
 }
 

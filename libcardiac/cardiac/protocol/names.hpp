@@ -12,14 +12,14 @@ namespace cardiac::protocol {
 template <std::size_t count>
 using Names = std::array<std::string_view, count>;
 
-constexpr Names<2> names_of(Shape) {
-  return {"human_lv", "land_ellipsoid"};
+constexpr Names<3> names_of(Shape) {
+  return {"human_lv", "land_ellipsoid", "human_biventricle"};
 }
 constexpr Names<4> names_of(LengthUnit) {
   return {"mm", "cm", "m", "um"};
 }
-constexpr Names<1> names_of(Scheme) {
-  return {"aha17"};
+constexpr Names<2> names_of(Scheme) {
+  return {"aha17", "aha29"};
 }
 constexpr Names<2> names_of(Method) {
   return {"polyaffine", "fem"};

@@ -43,11 +43,14 @@ PlanItem cavity_item(const Protocol& protocol) {
 }
 
 PlanItem circulation_item(const Protocol& protocol) {
-  if (protocol.circulation) return {"circulation", true, "three-element windkessel with two valves"};
+  if (protocol.circulation)
+    return {"circulation", true,
+            protocol.anatomy.scheme == Scheme::aha29 ? "closed loop of two windkessels with four valves"
+                                                     : "three-element windkessel with two valves"};
   return {"circulation", false, protocol.cavities ? "the pressure is prescribed" : "no table [circulation]"};
 }
 
-PlanItem reduction_item(const Reduction& reduction) {
+PlanItem reduction_item(const Reduction& reduction, Scheme scheme) {
   std::string why = "reduction.method = " + name_of(reduction.method);
   if (reduction.method == Method::fem) return {"reduction", false, why};
   int nodes = 1;
@@ -55,6 +58,10 @@ PlanItem reduction_item(const Reduction& reduction) {
   for (const int n : reduction.ring_nodes) {
     nodes += n;
     rings += " + " + std::to_string(n);
+  }
+  if (scheme == Scheme::aha29) {
+    nodes += 12;
+    rings += " + 12 of the right free wall";
   }
   return {"reduction", true, why + ", " + std::to_string(nodes) + " control nodes (" + rings + ")"};
 }
@@ -80,7 +87,7 @@ std::vector<PlanItem> plan(const Protocol& protocol, bool verify) {
       {"regions", !protocol.regions.empty(),
        protocol.regions.empty() ? "no table [[region]]: every segment is alike"
                                 : std::to_string(protocol.regions.size()) + " named by [[region]]"},
-      reduction_item(protocol.reduction),
+      reduction_item(protocol.reduction, protocol.anatomy.scheme),
       {"full order", !reduced || verify, reduced && verify ? "--verify" : method}};
   if (reduced && verify) {
     items.push_back({"verification", true, "--verify: full order at end diastole and end systole"});

@@ -13,7 +13,7 @@ namespace cardiac::protocol {
 using Vector3 = std::array<double, 3>;
 using Labels = std::vector<std::variant<int, std::string>>;  ///< numbers or names of surfaces
 
-enum class Shape { human_lv, land_ellipsoid };
+enum class Shape { human_lv, land_ellipsoid, human_biventricle };
 enum class LengthUnit { mm, cm, m, um };
 struct Mesh {
   std::optional<std::string> file;  ///< either file (with its length_unit) or shape
@@ -24,7 +24,7 @@ struct Mesh {
   std::optional<Labels> endo_label, epi_label, base_label, rv_endo_label;
 };
 
-enum class Scheme { aha17 };
+enum class Scheme { aha17, aha29 };
 struct Anatomy {
   Scheme scheme = Scheme::aha17;
   std::optional<Vector3> long_axis;  ///< apex to base; absent: normal of the base
@@ -71,8 +71,9 @@ struct Tissue {
 enum class FibreRule { helix };
 struct Fibres {
   FibreRule rule = FibreRule::helix;
-  double endo_angle_deg = 60, epi_angle_deg = -60;  ///< from circumferential towards the base
-  double sheet_angle_deg = 0;                       ///< of the sheet direction from the wall normal
+  double endo_angle_deg = 60, epi_angle_deg = -60;        ///< from circumferential towards the base
+  double sheet_angle_deg = 0;                             ///< of the sheet direction from the wall normal
+  double rv_endo_angle_deg = 60, rv_epi_angle_deg = -60;  ///< in the right free wall
 };
 
 enum class ActivationMode { uniform, sites };
@@ -97,7 +98,8 @@ struct Contraction {
 };
 
 struct Cavities {
-  double pressure_mmHg = 0;  ///< prescribed, raised from zero
+  double pressure_mmHg = 0;        ///< prescribed, raised from zero
+  double right_pressure_mmHg = 0;  ///< the same of the right ventricle
 };
 
 struct Circulation {
@@ -110,6 +112,15 @@ struct Circulation {
   double compliance_mL_per_mmHg = 1.5;
   double venous_pressure_mmHg = 5;
   double initial_aortic_pressure_mmHg = 80;
+  double right_filling_pressure_mmHg = 5;  ///< from here on: of the closed loop of two ventricles
+  double tricuspid_resistance_mmHg_s_per_mL = 0.01;
+  double pulmonary_valve_resistance_mmHg_s_per_mL = 0.007;
+  double pulmonary_characteristic_resistance_mmHg_s_per_mL = 0.01;
+  double pulmonary_peripheral_resistance_mmHg_s_per_mL = 0.06;
+  double pulmonary_compliance_mL_per_mmHg = 5;
+  double pulmonary_venous_compliance_mL_per_mmHg = 16;
+  double systemic_venous_compliance_mL_per_mmHg = 16;
+  double initial_pulmonary_pressure_mmHg = 15;
 };
 
 enum class Base { clamped };

@@ -13,7 +13,7 @@ namespace cardiac {
 struct WallPanel {
   std::string title, note;
   polyaffine::Points positions;
-  std::array<std::optional<double>, 17> values;  ///< what is missing is drawn grey
+  std::vector<std::optional<double>> values;  ///< by segment; what is missing is drawn grey
 };
 
 /// A parallel projection: `towards_viewer` points out of the picture, `up` (not parallel to it) upwards.
@@ -25,7 +25,7 @@ struct WallView {
 struct WallPicture {
   std::string title, unit, low_meaning, high_meaning;
   WallCut cut;
-  std::vector<int> segment;  ///< 1–17, of each tet of the mesh that was cut
+  std::vector<int> segment;  ///< from 1, of each tet of the mesh that was cut
   WallView view;
   std::vector<WallPanel> panels;
 };

@@ -17,16 +17,16 @@ using polyaffine::Vec3;
 SegmentGauge::SegmentGauge(const VentricularCoordinates& coordinates, const polyaffine::WallPoints& points)
     : coordinates_(coordinates), X_(3, points.barycentric.cols()), weights_(points.weights) {
   for (Eigen::Index q = 0; q < X_.cols(); ++q) {
-    const auto at = coordinates.sample(points.tet[q], points.barycentric.col(q));
     X_.col(q) = coordinates.position(points.tet[q], points.barycentric.col(q));
-    segment_.push_back(aha_segment(coordinates.long_axis_height(X_.col(q)), at.psi));
-    axes_.push_back(orthonormal_axes(at));
+    segment_.push_back(segment_at(coordinates, points.tet[q], points.barycentric.col(q), X_.col(q)));
+    axes_.push_back(orthonormal_axes(coordinates.wall_sample(points.tet[q], points.barycentric.col(q))));
   }
 }
 
 std::vector<SegmentStrain> SegmentGauge::strain(const Matrix& F, const Matrix& F_ed) const {
-  std::vector<SegmentStrain> mean(kAhaSegments, SegmentStrain{0, 0, 0, 0, 0, 0, 0});
-  std::vector<double> volume(kAhaSegments, 0.0);
+  const int count = num_segments(coordinates_);
+  std::vector<SegmentStrain> mean(count, SegmentStrain{0, 0, 0, 0, 0, 0, 0});
+  std::vector<double> volume(count, 0.0);
   for (Eigen::Index q = 0; q < F.cols(); ++q) {
     const Mat3 reference = F_ed.col(q).reshaped(3, 3);
     const Eigen::JacobiSVD<Mat3> svd(reference, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -44,7 +44,7 @@ std::vector<SegmentStrain> SegmentGauge::strain(const Matrix& F, const Matrix& F
     s.shear_cr += w * 0.5 * C(1, 2);
     s.volume_ratio += w * std::abs(relative.determinant());
   }
-  for (int k = 0; k < kAhaSegments; ++k)
+  for (int k = 0; k < count; ++k)
     for (double* value : {&mean[k].longitudinal, &mean[k].circumferential, &mean[k].radial, &mean[k].shear_lc,
                           &mean[k].shear_lr, &mean[k].shear_cr, &mean[k].volume_ratio})
       *value /= volume[k];
@@ -52,25 +52,27 @@ std::vector<SegmentStrain> SegmentGauge::strain(const Matrix& F, const Matrix& F
 }
 
 std::vector<Mat3> SegmentGauge::green_lagrange(const Matrix& F) const {
-  std::vector<Mat3> mean(kAhaSegments, Mat3::Zero());
-  std::vector<double> volume(kAhaSegments, 0.0);
+  const int count = num_segments(coordinates_);
+  std::vector<Mat3> mean(count, Mat3::Zero());
+  std::vector<double> volume(count, 0.0);
   for (Eigen::Index q = 0; q < F.cols(); ++q) {
     const Mat3 in_axes = F.col(q).reshaped(3, 3) * axes_[q];
     mean[segment_[q] - 1] += weights_[q] / 2 * (in_axes.transpose() * in_axes - Mat3::Identity());
     volume[segment_[q] - 1] += weights_[q];
   }
-  for (int k = 0; k < kAhaSegments; ++k) mean[k] /= volume[k];
+  for (int k = 0; k < count; ++k) mean[k] /= volume[k];
   return mean;
 }
 
 std::vector<double> SegmentGauge::rotation_deg(const Points& x, const Points& x_ed) const {
-  std::vector<double> sum(kAhaSegments, 0.0), volume(kAhaSegments, 0.0);
+  const int count = num_segments(coordinates_);
+  std::vector<double> sum(count, 0.0), volume(count, 0.0);
   for (Eigen::Index q = 0; q < x.cols(); ++q) {
-    const double turn = coordinates_.angle(x.col(q)) - coordinates_.angle(x_ed.col(q));
+    const double turn = coordinates_.plain_angle(x.col(q)) - coordinates_.plain_angle(x_ed.col(q));
     sum[segment_[q] - 1] += weights_[q] * std::remainder(turn, 2 * polyaffine::kPi);
     volume[segment_[q] - 1] += weights_[q];
   }
-  for (int k = 0; k < kAhaSegments; ++k) sum[k] *= 180 / polyaffine::kPi / volume[k];
+  for (int k = 0; k < count; ++k) sum[k] *= 180 / polyaffine::kPi / volume[k];
   return sum;
 }
 
@@ -78,7 +80,7 @@ GlobalStrain global_strain(const std::vector<SegmentStrain>& strain, const std::
                            const std::vector<double>& volumes) {
   GlobalStrain out;
   double total = 0, apical = 0, apical_volume = 0, basal = 0, basal_volume = 0;
-  for (std::size_t k = 0; k < strain.size(); ++k) {
+  for (std::size_t k = 0; k < kAhaSegments; ++k) {
     total += volumes[k];
     out.gls_percent += 100 * volumes[k] * strain[k].longitudinal;
     out.gcs_percent += 100 * volumes[k] * strain[k].circumferential;

@@ -27,7 +27,7 @@ class SegmentGauge {
   std::vector<double> rotation_deg(const polyaffine::Points& x, const polyaffine::Points& x_ed) const;
 
   const polyaffine::Points& positions() const { return X_; }    ///< of the points, reference, mm
-  const std::vector<int>& segment() const { return segment_; }  ///< 1–17, a number a point
+  const std::vector<int>& segment() const { return segment_; }  ///< from 1, a number a point
   const polyaffine::Vector& weights() const { return weights_; }
 
  private:
@@ -38,10 +38,10 @@ class SegmentGauge {
   std::vector<polyaffine::Mat3> axes_;
 };
 
-/// Global strain at end systole: GLS, GCS, GRS are the means of the segments' strains weighted by volume, in
-/// percent; twist is the rotation of the apical segments (13–16) minus that of the basal ones (1–6), degrees,
-/// positive when the apex turns counter-clockwise seen from the apex against the base, as it does in a
-/// healthy heart.
+/// Global strain of the left ventricle (segments 1–17) at end systole: GLS, GCS, GRS are the means of the
+/// segments' strains weighted by volume, in percent; twist is the rotation of the apical segments (13–16)
+/// minus that of the basal ones (1–6), degrees, positive when the apex turns counter-clockwise seen from the
+/// apex against the base, as it does in a healthy heart.
 GlobalStrain global_strain(const std::vector<SegmentStrain>& strain, const std::vector<double>& rotation_deg,
                            const std::vector<double>& segment_volumes);
 
