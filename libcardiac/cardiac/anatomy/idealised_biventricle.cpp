@@ -112,10 +112,13 @@ int surface_label(const IdealisedBiventricle& s, double tolerance_mm, const std:
   if (std::all_of(triangle.begin(), triangle.end(),
                   [&](const Vec3& x) { return std::abs(x.z() - s.lv.base_z_mm) <= tolerance_mm; }))
     return kBase;
-  const Vec3 middle = (triangle[0] + triangle[1] + triangle[2]) / 3;
-  return *std::min_element(kSurfaces.begin(), kSurfaces.end(), [&](int a, int b) {
-    return std::abs(surface_function(s, a, middle)) < std::abs(surface_function(s, b, middle));
-  });
+  const auto away = [&](int label) {
+    double largest = 0;
+    for (const Vec3& x : triangle) largest = std::max(largest, std::abs(surface_function(s, label, x)));
+    return largest;
+  };
+  return *std::min_element(kSurfaces.begin(), kSurfaces.end(),
+                           [&](int a, int b) { return away(a) < away(b); });
 }
 
 int wall_region(const IdealisedBiventricle& s, const Vec3& x) {

@@ -39,8 +39,8 @@ std::array<Points, 3> rims(const IdealisedBiventricle& shape, double step_mm);
 /// tolerance_mm of the base plane and another surface.
 Vec3 project_to_wall_surface(const IdealisedBiventricle& shape, double tolerance_mm, const Vec3& x);
 
-/// The surface that three boundary points lie on: kBase where all are on the base plane, else the nearest to
-/// their middle.
+/// The surface that three boundary points lie on: kBase where all are on the base plane, else the one
+/// whose farthest point is nearest.
 int surface_label(const IdealisedBiventricle& shape, double tolerance_mm,
                   const std::array<Vec3, 3>& triangle);
 
