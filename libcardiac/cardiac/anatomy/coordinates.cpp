@@ -158,7 +158,7 @@ void VentricularCoordinates::find_insertions(const polyaffine::TetMesh& mesh) {
   if (!(half > 0 && half < 0.9 * polyaffine::kPi))
     throw InputError("septum: found " + std::to_string(2 * half * 180 / polyaffine::kPi) +
                      " degrees of the left ventricle between the two endocardia, expected more than 0 and "
-                     "less than 324; are lv_endo and rv_endo swapped?");
+                     "less than 324");
   orient(axis_.cross(std::cos(septum.middle) * anterior_ + std::sin(septum.middle) * septal_));
 
   const double quarter = (polyaffine::kPi - half) / 2;

@@ -1,6 +1,5 @@
 #include "cardiac/heart/wall.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <cardiac/fibres/helix.hpp>
@@ -69,12 +68,6 @@ RegionFactors region_factors(const Anatomy& anatomy, const Protocol& protocol,
                              const polyaffine::WallPoints& points) {
   RegionFactors out;
   if (protocol.regions.empty()) return out;
-  const int segments = num_segments(*anatomy.coordinates);
-  for (const auto& region : protocol.regions)
-    if (const int last = *std::max_element(region.segments.begin(), region.segments.end()); last > segments)
-      throw polyaffine::InputError("region.segments: found segment " + std::to_string(last) +
-                                   ", expected at most " + std::to_string(segments) +
-                                   ": the mesh has no right ventricle");
   const std::size_t n = points.tet.size();
   out.stiffness.assign(n, 1.0);
   out.tension.assign(n, 1.0);

@@ -5,6 +5,7 @@
 #include <regex>
 #include <set>
 
+#include <cardiac/protocol/names.hpp>
 #include <cardiac/protocol/nearest_key.hpp>
 #include <cardiac/protocol/rules.hpp>
 #include <polyaffine/core/error.hpp>
@@ -123,11 +124,22 @@ void check_load(const Protocol& protocol, const Place& place) {
   }
 }
 
-void check_regions(const std::vector<RegionOverride>& regions, const Place& place) {
+void check_segments(const std::vector<int>& segments, Scheme scheme, const std::string& path,
+                    const Place& place) {
+  const int last = scheme == Scheme::aha29 ? 29 : 17;
+  for (const int segment : segments)
+    if (segment > last)
+      fail(place, path,
+           "found segment " + std::to_string(segment) + ", expected at most " + std::to_string(last) +
+               " with the anatomy.scheme " + name_of(scheme));
+}
+
+void check_regions(const std::vector<RegionOverride>& regions, Scheme scheme, const Place& place) {
   std::map<int, std::size_t> owner;
   for (std::size_t i = 0; i < regions.size(); ++i) {
     const std::string path = key_path("region", i, "segments");
     if (regions[i].segments.empty()) fail(place, path, "found an empty list, expected at least one segment");
+    check_segments(regions[i].segments, scheme, path, place);
     for (const int segment : regions[i].segments) {
       const auto [found, is_new] = owner.emplace(segment, i);
       if (!is_new) {
@@ -171,7 +183,7 @@ void check_rules(const Protocol& protocol, const Place& place) {
   check_reduction(protocol.reduction, place);
   check_activity(protocol, place);
   check_load(protocol, place);
-  check_regions(protocol.regions, place);
+  check_regions(protocol.regions, protocol.anatomy.scheme, place);
 }
 
 }  // namespace cardiac::protocol

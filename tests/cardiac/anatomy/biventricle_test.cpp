@@ -8,7 +8,6 @@
 
 #include <cardiac/anatomy/biventricular_frames.hpp>
 #include <cardiac/anatomy/segments.hpp>
-#include <polyaffine/core/error.hpp>
 #include <polyaffine/geometry/geodesic_regions.hpp>
 
 #include "support/biventricle.hpp"
@@ -175,14 +174,6 @@ TEST(Biventricle, WeightsAreAPartitionOfUnityThatPassesThroughTheWall) {
     }
     EXPECT_EQ(static_cast<int>(seen.size()), frames.num_frames());
   }
-}
-
-TEST(Biventricle, SwappedEndocardiaAreTold) {
-  const auto& both = Biventricle::get();
-  SurfaceLabels swapped = testing::kBothLabels;
-  swapped.endo = kRvEndocardium;
-  swapped.rv_endo = kEndocardium;
-  EXPECT_THROW(VentricularCoordinates(both.mesh, swapped, {}), polyaffine::InputError);
 }
 
 }  // namespace
