@@ -99,9 +99,12 @@ polyaffine::WriteFields fields(const Anatomy& anatomy, const std::vector<Control
   for (const char* name : {"apicobasal", "transmural", "rotational_rad", "transventricular"})
     out.point_fields[name] = Matrix(1, points);
   for (const char* name : {"e_l", "e_c", "e_r", "fibre"}) out.point_fields[name] = Matrix(3, points);
+  std::vector<char> done(points, 0);
   for (int t = 0; t < tets; ++t)
     for (int k = 0; k < 4; ++k) {
       const int p = mesh.tets()(k, t);
+      if (done[p]) continue;
+      done[p] = 1;
       const polyaffine::Vec4 corner = polyaffine::Vec4::Unit(k);
       const CoordinateSample at = coordinates.wall_sample(t, corner);
       const polyaffine::Mat3 axes = orthonormal_axes(at);

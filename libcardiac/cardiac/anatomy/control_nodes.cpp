@@ -57,22 +57,36 @@ ControlNode find(const polyaffine::TetMesh& mesh, const VentricularCoordinates& 
   return best;
 }
 
+// A tet of the right free wall by its centre.
+struct RightCentre {
+  int tet = 0;
+  CoordinateSample left;
+  RightVentricularCoordinates::Sample right;
+};
+
+std::vector<RightCentre> right_centres(const polyaffine::TetMesh& mesh,
+                                       const VentricularCoordinates& coordinates,
+                                       const std::vector<CoordinateSample>& centres) {
+  std::vector<RightCentre> out;
+  const RightVentricularCoordinates* right = coordinates.right();
+  for (int t = 0; right && t < mesh.num_tets(); ++t)
+    if (right->border(t, Vec4::Constant(0.25)).share == 1)
+      out.push_back({t, centres[t], right->sample(t, Vec4::Constant(0.25))});
+  return out;
+}
+
 // The centre of the tet of the right free wall that comes closest to mid-wall at (u, ψ).
-ControlNode find_right(const polyaffine::TetMesh& mesh, const VentricularCoordinates& coordinates, double u,
-                       double psi) {
-  const RightVentricularCoordinates& right = *coordinates.right();
+ControlNode find_right(const VentricularCoordinates& coordinates, const std::vector<RightCentre>& centres,
+                       double u, double psi) {
   ControlNode node;
   node.barycentric = Vec4::Constant(0.25);
   double least = std::numeric_limits<double>::infinity();
-  for (int t = 0; t < mesh.num_tets(); ++t) {
-    if (right.border(t, node.barycentric).share < 1) continue;
-    const CoordinateSample left = coordinates.sample(t, node.barycentric);
-    const auto at = right.sample(t, node.barycentric);
-    const Vec3 away((left.u - u) / left.grad_u.norm(), (at.psi - psi) / at.grad_psi.norm(),
-                    (at.t - 0.5) / at.grad_t.norm());
+  for (const RightCentre& at : centres) {
+    const Vec3 away((at.left.u - u) / at.left.grad_u.norm(), (at.right.psi - psi) / at.right.grad_psi.norm(),
+                    (at.right.t - 0.5) / at.right.grad_t.norm());
     if (away.norm() >= least) continue;
     least = away.norm();
-    node.tet = t;
+    node.tet = at.tet;
   }
   node.position = coordinates.position(node.tet, node.barycentric);
   node.axes = orthonormal_axes(coordinates.wall_sample(node.tet, node.barycentric));
@@ -96,9 +110,10 @@ std::vector<ControlNode> control_nodes(const polyaffine::TetMesh& mesh,
   cap.position = cap_node_position(coordinates, layout);
   cap.axes = cap_axes(coordinates);
   nodes.push_back(cap);
+  const auto right = right_centres(mesh, coordinates, centres);
   for (auto row = layout.right.rbegin(); row != layout.right.rend(); ++row)
     for (int j = 0; j < row->nodes; ++j)
-      nodes.push_back(find_right(mesh, coordinates, row->u, row->node_psi(j)));
+      nodes.push_back(find_right(coordinates, right, row->u, row->node_psi(j)));
   return nodes;
 }
 

@@ -3,9 +3,11 @@
 
 #include <cardiac/anatomy/idealised.hpp>
 #include <cmath>
+#include <filesystem>
 #include <polyaffine/mesh/quality.hpp>
 #include <polyaffine/mesh/surface.hpp>
 #include <polyaffine/vtk/read.hpp>
+#include <set>
 
 #include "program.hpp"
 
@@ -44,6 +46,26 @@ TEST(MeshCommand, ShippedMeshesAreWhatTheirNamesSay) {
   EXPECT_LE(human.num_tets(), 8000);
   check_mesh(polyaffine::read_vtu(folder + "land_ellipsoid.vtu", 1), cardiac::land_ellipsoid(), 0.02);
   check_mesh(polyaffine::read_vtu(folder + "land_ellipsoid_coarse.vtu", 1), cardiac::land_ellipsoid(), 0.04);
+}
+
+TEST(MeshCommand, BiventricleHasTwoCavitiesAndRegions) {
+  const TemporaryFolder folder;
+  const auto file = folder.path / "both.vtu";
+  const auto run = run_program("mesh biventricle --size 8 --out " + file.string());
+  if (run.status == 2 && run.err.find("without CGAL") != std::string::npos) GTEST_SKIP() << run.err;
+  ASSERT_EQ(run.status, 0) << run.err;
+  for (const auto& path : {file, std::filesystem::path(PROJECT_DIR "/meshes/healthy_biv.vtu")}) {
+    SCOPED_TRACE(path);
+    const TetMesh mesh = polyaffine::read_vtu(path, 1);
+    EXPECT_EQ(mesh.surface({TetMesh::kUnlabelled}).cols(), 0);
+    EXPECT_GT(polyaffine::mesh_quality(mesh).min_dihedral_deg, 8);
+    const auto cavity_mL = [&](int label) {
+      return polyaffine::EnclosedVolume(mesh, {label}).value(mesh.points()) / 1000;
+    };
+    EXPECT_NEAR(cavity_mL(cardiac::kEndocardium), 73, 2);
+    EXPECT_NEAR(cavity_mL(cardiac::kRvEndocardium), 84, 2);
+    EXPECT_EQ(std::set<int>(mesh.regions().begin(), mesh.regions().end()), (std::set<int>{1, 2, 3}));
+  }
 }
 
 TEST(MeshCommand, EllipsoidWritesALabelledMeshAndPrintsItsNumbers) {

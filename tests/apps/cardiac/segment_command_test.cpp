@@ -124,7 +124,7 @@ TEST_F(SegmentCommand, WrongInputIsStatusTwoAndTouchesNothing) {
   std::ofstream(file()) << "earlier";
   const std::string sound = "--scheme aha17 --length-unit mm";
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"--scheme aha29 --length-unit mm", "two ventricles"},
+      {"--scheme aha29 --length-unit mm", "no right endocardium"},
       {"--scheme aha16 --length-unit mm", "expected aha17"},
       {"--scheme aha17", "--length-unit"},
       {"--scheme aha17 --length-unit inch", "expected the length unit of the mesh: mm, cm, m or um"},

@@ -1,0 +1,93 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include <cardiac/anatomy/segments.hpp>
+#include <cardiac/core/units.hpp>
+#include <cardiac/heart/beat_system.hpp>
+
+#include "support/heart_run.hpp"
+#include "support/random_vector.hpp"
+
+namespace cardiac {
+namespace {
+
+using polyaffine::Vector;
+using polyaffine::testing::random_vector;
+
+/// The shipped biventricle protocol on the coarse mesh, its anatomy computed once.
+struct CoarseBiventricle {
+  Protocol protocol =
+      testing::shipped_protocol("healthy_biv", {"mesh.file=\"../meshes/healthy_biv_coarse.vtu\""});
+  std::shared_ptr<const Anatomy> anatomy = testing::read_anatomy(protocol);
+
+  static const CoarseBiventricle& get() {
+    static const CoarseBiventricle out;
+    return out;
+  }
+};
+
+TEST(BiventricleHeart, PressuresFillBothCavitiesAndStrainAllSegments) {
+  Protocol p = CoarseBiventricle::get().protocol;
+  p.circulation.reset();
+  p.contraction.reset();
+  p.cavities = {10, 5};
+  p.time.load_steps = 2;
+  const testing::HeartRun run(p, CoarseBiventricle::get().anatomy);
+  ASSERT_TRUE(run.path.completed) << run.path.stop_reason;
+  const HeartState &rest = run.path.steps.front(), &filled = run.path.steps.back();
+  EXPECT_GT(filled.volume_mm3, 1.2 * rest.volume_mm3);
+  EXPECT_GT(filled.right_volume_mm3, 1.2 * rest.right_volume_mm3);
+  EXPECT_NEAR(filled.right_pressure_kPa, 5 * kPa_per_mmHg, 1e-12);
+  EXPECT_EQ(run.result.control_nodes, kBothSegments);
+  ASSERT_EQ(run.result.ventricles.size(), 2U);
+  EXPECT_EQ(run.result.ventricles[1].name, "rv");
+  const auto& strain = run.result.instants.back().strain;
+  ASSERT_EQ(strain.size(), kBothSegments);
+  ASSERT_EQ(run.result.instants.back().frames.size(), kBothSegments);
+  for (int s = 1; s <= kBothSegments; ++s) {
+    const SegmentStrain& e = strain[s - 1];
+    EXPECT_NEAR(e.volume_ratio, 1, 0.1) << aha_name(s);
+    EXPECT_TRUE(std::isfinite(e.radial)) << aha_name(s);
+    if (s <= 12) EXPECT_GT(e.circumferential, 0) << aha_name(s);
+  }
+  // More pressure on the right alone pushes the septum to the left.
+  p.cavities = {10, 9};
+  const testing::HeartRun more(p, CoarseBiventricle::get().anatomy);
+  ASSERT_TRUE(more.path.completed) << more.path.stop_reason;
+  EXPECT_GT(more.path.steps.back().right_volume_mm3, filled.right_volume_mm3);
+  EXPECT_LT(more.path.steps.back().volume_mm3, filled.volume_mm3);
+}
+
+TEST(BiventricleHeart, SolveInvertsTheDerivativeOfTheResidual) {
+  Protocol p = CoarseBiventricle::get().protocol;
+  p.tissue.viscosity_kPa_ms = 0;
+  const Ventricle ventricle = build_ventricle(CoarseBiventricle::get().anatomy, p, p.reduction.method);
+  BeatSystem system(ventricle, std::make_shared<TwoSidedCirculation>(two_sided_loop(*p.circulation)));
+  const int n = ventricle.num_coefficients();
+  ASSERT_EQ(system.size(), n + 8);
+  const Vector c = random_vector(n, 0.02, 3);
+  HeartState state{250, c, ventricle.cavity_volume(c), 90 * kPa_per_mmHg, 80 * kPa_per_mmHg};
+  state.right_volume_mm3 = ventricle.right_cavity->evaluate({c}).value;
+  state.right_pressure_kPa = 20 * kPa_per_mmHg;
+  state.loop = Vector(3);
+  state.loop << 15 * kPa_per_mmHg, 9 * kPa_per_mmHg, 4 * kPa_per_mmHg;
+  const Vector y = system.pack(state);
+  EXPECT_EQ((system.pack(system.unpack(0, 0, y)) - y).norm(), 0);
+  Vector rate = random_vector(system.size(), 1, 4);
+  rate.head(n) *= 0.01;
+  Vector d = random_vector(system.size(), 1, 5);
+  d.segment(n, 2) *= 100;  // mm³
+  const double alpha = 1, h = 1e-5;
+  Vector plus, minus, x;
+  ASSERT_TRUE(system.residual(250, y + h * d, rate + alpha * h * d, plus));
+  ASSERT_TRUE(system.residual(250, y - h * d, rate - alpha * h * d, minus));
+  ASSERT_TRUE(system.residual(250, y, rate, x));
+  ASSERT_TRUE(system.factorise(250, y, rate, alpha));
+  ASSERT_TRUE(system.solve((plus - minus) / (2 * h), x));
+  EXPECT_LT((x - d).head(n).norm(), 1e-4 * d.head(n).norm());
+  EXPECT_LT((x - d).tail(8).cwiseQuotient(d.tail(8)).cwiseAbs().maxCoeff(), 1e-4);
+}
+
+}  // namespace
+}  // namespace cardiac
