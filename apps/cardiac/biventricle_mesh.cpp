@@ -4,6 +4,7 @@
 
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/mesh/quality.hpp>
+#include <polyaffine/mesh/triangle_adjacency.hpp>
 
 #ifdef CARDIAC_WITH_CGAL
 #include <polyaffine/meshing/implicit_domain.hpp>
@@ -18,6 +19,15 @@ using polyaffine::TetMesh;
 namespace {
 
 constexpr double kSmallestDihedralDeg = 8;
+// Where the two walls meet some sizes leave parts that touch only in a point or an edge; a slightly smaller
+// size does not.
+constexpr int kTrials = 8;
+constexpr double kSmaller = 0.97;
+
+bool manifold(const TetMesh& mesh) {
+  const polyaffine::TriangleAdjacency adjacency = polyaffine::triangle_adjacency(mesh.boundary());
+  return adjacency.crowded.empty() && polyaffine::pinched_vertex(mesh.boundary(), adjacency.across) < 0;
+}
 
 TetMesh with_regions(const IdealisedBiventricle& shape, const TetMesh& mesh) {
   std::vector<int> region;
@@ -43,13 +53,14 @@ TetMesh mesh_biventricle(const IdealisedBiventricle& shape, double size_mm) {
   domain.label = [&](const std::array<polyaffine::Vec3, 3>& triangle) {
     return surface_label(shape, on_surface_mm, triangle);
   };
-  const TetMesh mesh = mesh_implicit_domain(domain, polyaffine::sizes_for_edge(size_mm));
-  const double smallest = polyaffine::mesh_quality(mesh).min_dihedral_deg;
-  if (smallest < kSmallestDihedralDeg)
-    throw polyaffine::ComputationError("meshing: the smallest dihedral angle is " + std::to_string(smallest) +
-                                       " degrees, expected " + std::to_string(kSmallestDihedralDeg) +
-                                       " or more; try a slightly different size");
-  return with_regions(shape, mesh);
+  for (int trial = 0; trial < kTrials; ++trial, size_mm *= kSmaller) {
+    const TetMesh mesh = mesh_implicit_domain(domain, polyaffine::sizes_for_edge(size_mm));
+    if (manifold(mesh) && polyaffine::mesh_quality(mesh).min_dihedral_deg >= kSmallestDihedralDeg)
+      return with_regions(shape, mesh);
+  }
+  throw polyaffine::ComputationError(
+      "meshing: found flat tets or parts that touch without a common face in " + std::to_string(kTrials) +
+      " trials, the last with a size of " + std::to_string(size_mm / kSmaller) + " mm; try a smaller size");
 }
 #else
 TetMesh mesh_biventricle(const IdealisedBiventricle&, double) {

@@ -143,6 +143,9 @@ Ventricle build_ventricle(std::shared_ptr<const Anatomy> anatomy, const Protocol
   Ventricle all = assemble_ventricle(anatomy, protocol, discretise(anatomy, protocol, method));
   if (method == protocol::Method::fem || protocol.reduction.integration != protocol::Integration::trained)
     return all;
+  if (all.right_cavity)
+    throw polyaffine::InputError(
+        "reduction.integration: found trained on a mesh with two ventricles, expected cells or gauss");
   const TrainedRule rule = cached_rule(anatomy, protocol);
   Ventricle out = assemble_ventricle(anatomy, protocol, with_rule(all.discretisation, rule));
   out.built = all.built;

@@ -51,7 +51,7 @@ TEST(MeshCommand, ShippedMeshesAreWhatTheirNamesSay) {
 TEST(MeshCommand, BiventricleHasTwoCavitiesAndRegions) {
   const TemporaryFolder folder;
   const auto file = folder.path / "both.vtu";
-  const auto run = run_program("mesh biventricle --size 8 --out " + file.string());
+  const auto run = run_program("mesh biventricle --size 7 --out " + file.string());
   if (run.status == 2 && run.err.find("without CGAL") != std::string::npos) GTEST_SKIP() << run.err;
   ASSERT_EQ(run.status, 0) << run.err;
   for (const auto& path : {file, std::filesystem::path(PROJECT_DIR "/meshes/healthy_biv.vtu")}) {

@@ -49,7 +49,9 @@ TEST(BiventricleHeart, PressuresFillBothCavitiesAndStrainAllSegments) {
     const SegmentStrain& e = strain[s - 1];
     EXPECT_NEAR(e.volume_ratio, 1, 0.1) << aha_name(s);
     EXPECT_TRUE(std::isfinite(e.radial)) << aha_name(s);
-    if (s <= 12) EXPECT_GT(e.circumferential, 0) << aha_name(s);
+    if (s <= 12) {
+      EXPECT_GT(e.circumferential, 0) << aha_name(s);
+    }
   }
   // More pressure on the right alone pushes the septum to the left.
   p.cavities = {10, 9};

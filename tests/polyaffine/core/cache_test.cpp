@@ -15,7 +15,9 @@ class Cache : public ::testing::Test {
     setenv("XDG_CACHE_HOME", folder.c_str(), 1);
   }
   void TearDown() override { std::filesystem::remove_all(folder); }
-  const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "cache_test";
+  const std::filesystem::path folder =
+      std::filesystem::path(::testing::TempDir()) /
+      (std::string("cache_test_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
 TEST_F(Cache, GivesBackWhatWasStoredUnderTheWholeKey) {
