@@ -22,9 +22,9 @@ HeartMeshOptions options_of(const protocol::Mesh& mesh) {
 }
 
 polyaffine::TetMesh read(const Protocol& protocol, std::vector<std::string>& warnings) {
-  HeartMesh heart = read_heart(
-      mesh_path(protocol), protocol.mesh.surface_file ? surface_path(protocol) : std::filesystem::path(),
-      options_of(protocol.mesh));
+  HeartMesh heart = read_heart(mesh_path(protocol),
+                               protocol.mesh.surface_file ? surface_path(protocol) : std::filesystem::path(),
+                               options_of(protocol.mesh));
   for (const auto& list : {heart.warnings, heart.file.notes})
     for (const std::string& text : list) warnings.push_back(mesh_path(protocol).string() + ": " + text);
   return std::move(heart.file.mesh);

@@ -56,9 +56,10 @@ MeshData read_any_mesh(const std::filesystem::path& file) {
   if (polyaffine::has_reader(file)) return polyaffine::read_mesh_data(file);
   const std::string extension = file.extension().string();
   if (extension != ".vtu" && extension != ".vtk" && extension != ".vtp")
-    throw InputError(file.string() + ": found the extension \"" + extension +
-                     "\", expected a mesh: .vtu, .vtk, .msh, .pts, .elem, or a closed surface: .stl, .off, .obj, "
-                     ".ply, .vtp");
+    throw InputError(
+        file.string() + ": found the extension \"" + extension +
+        "\", expected a mesh: .vtu, .vtk, .msh, .pts, .elem, or a closed surface: .stl, .off, .obj, "
+        ".ply, .vtp");
 #ifdef CARDIAC_WITH_VTK
   return polyaffine::read_vtk_data(file);
 #else

@@ -21,8 +21,8 @@ std::vector<SurfaceLabel> surface_labels(const std::vector<std::string>& words);
 /// Reads any mesh file by its extension. Throws InputError as the readers, and when this build lacks VTK.
 polyaffine::MeshData read_any_mesh(const std::filesystem::path& file);
 
-/// Reads a heart from a file of tetrahedra and, unless it is empty, a second file with its labelled triangles.
-/// Throws InputError as read_any_mesh and make_heart_mesh.
+/// Reads a heart from a file of tetrahedra and, unless it is empty, a second file with its labelled
+/// triangles. Throws InputError as read_any_mesh and make_heart_mesh.
 HeartMesh read_heart(const std::filesystem::path& file, const std::filesystem::path& surface_file,
                      const HeartMeshOptions& options);
 

@@ -37,7 +37,8 @@ HeartMesh fill_surface(const std::filesystem::path& file, const HeartMeshOptions
   filled.source = file;
   filled.notes = data.notes;
   filled.notes.push_back("closed surface of " + std::to_string(data.triangles.cols()) +
-                         " triangles filled with tetrahedra of edges of about " + std::to_string(edge) + " mm");
+                         " triangles filled with tetrahedra of edges of about " + std::to_string(edge) +
+                         " mm");
   try {
     const polyaffine::TetMesh mesh =
         polyaffine::mesh_polyhedral_domain(data.points, data.triangles, polyaffine::sizes_for_edge(edge));

@@ -31,8 +31,8 @@ struct ExactGeometry {
 };
 
 /// The boundary of the mesh carries the labels kEndocardium, kEpicardium and kBase, with two ventricles also
-/// kRvEndocardium. Throws InputError as its coordinates and its segments do, and when the protocol's scheme is
-/// for another number of ventricles.
+/// kRvEndocardium. Throws InputError as its coordinates and its segments do, and when the protocol's scheme
+/// is for another number of ventricles.
 Anatomy build_anatomy(polyaffine::TetMesh mesh, const Protocol& protocol, const ExactGeometry& exact = {});
 
 /// Shape functions with their integration points: a full-order or a reduced model of the same wall.

@@ -225,8 +225,7 @@ Discretisation reduced_discretisation(const Anatomy& anatomy, const Protocol& pr
                                     int, const LagrangeBasis::FaceCorners&) { return rule; }}
               : tent_candidates(geometry, *out.frames);
   const WallPoints& candidates = from.wall;
-  const Cells cells =
-      sigmoid ? region_cells(anatomy, out, candidates) : tent_cells(*out.frames, candidates);
+  const Cells cells = sigmoid ? region_cells(anatomy, out, candidates) : tent_cells(*out.frames, candidates);
   out.points = protocol.reduction.integration == protocol::Integration::gauss
                    ? polyaffine::group_cells(candidates, cells.cell)
                    : polyaffine::compress_cells(candidates, cells.cell, cells.place, kCellDegree);

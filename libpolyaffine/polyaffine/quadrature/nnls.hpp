@@ -8,7 +8,7 @@ struct NnlsOptions {
   /// Stop when ‖b − Ax‖ ≤ tolerance·‖b‖, or when no column (scaled to length one) has a product with the
   /// residual above tolerance·‖b‖.
   double tolerance = 1e-14;
-  double accuracy = 0;     ///< stop when ‖b − Ax‖ ≤ accuracy·‖b‖, with few columns instead of the minimum
+  double accuracy = 0;  ///< stop when ‖b − Ax‖ ≤ accuracy·‖b‖, with few columns instead of the minimum
   int max_iterations = 0;  ///< columns entered or left; 0 stands for 10 × (rows + 1) + columns
 };
 

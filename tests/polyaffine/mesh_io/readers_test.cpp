@@ -187,8 +187,7 @@ TEST(OpenCarpReader, RefusalsNameFileAndLine) {
   EXPECT_THAT(refusal(points, "1\nTt 0 1 2 4 1\n", ""), AllOf(HasSubstr("point 4"), HasSubstr("0 to 3")));
   EXPECT_THAT(refusal(points, tet, "1\n1 0\n"), AllOf(HasSubstr("heart.lon"), HasSubstr("fibre")));
   EXPECT_THAT(refusal(points, tet, "5\n1 0 0\n"), HasSubstr("1 or 2"));
-  EXPECT_THAT(refusal("4\n0 0 0\n1 0 0\n", tet, ""),
-              AllOf(HasSubstr("heart.pts"), HasSubstr("cut off")));
+  EXPECT_THAT(refusal("4\n0 0 0\n1 0 0\n", tet, ""), AllOf(HasSubstr("heart.pts"), HasSubstr("cut off")));
 }
 
 struct SurfaceFormat {

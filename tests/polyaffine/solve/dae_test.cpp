@@ -113,7 +113,7 @@ TEST(Dae, CountsItsWork) {
   EXPECT_EQ(c.residuals, calls);
   EXPECT_GT(c.newton_iterations, 0);
   EXPECT_GT(c.factorisations, 0);
-  EXPECT_LT(c.factorisations, c.newton_iterations);  // a factorisation serves several iterations
+  EXPECT_LT(c.factorisations, c.newton_iterations);     // a factorisation serves several iterations
   EXPECT_LT(c.convergence_failures, c.factorisations);  // each asks for a new one
 }
 
