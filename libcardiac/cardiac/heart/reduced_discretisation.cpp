@@ -28,6 +28,9 @@ namespace {
 // the border of a cell crosses are cut in parts, up to so many times, with points of the second degree each:
 // else the cells' volumes and, more so, the areas that a pressure pushes on are wrong by parts of elements.
 constexpr int kCandidateDegree = 4, kPartDegree = 2, kWallCuts = 1, kSurfaceCuts = 2;
+// Corners are asked for their cell this share of the way to the middle of the element: one that only touches
+// a border is not crossed by it, and rounding does not decide.
+constexpr double kDrawnIn = 1e-3;
 // Polynomials kept exact in a cell, along u, ψ and the depth: fibres turn by 120° through the wall.
 constexpr polyaffine::CellDegree kCellDegree{4, 4, 8};
 // Total degree in u and ψ of the polynomials kept exact in a cell of a surface.
@@ -78,13 +81,14 @@ struct CandidatePoints {
 
 // Points that see the cells of the tents as they are, not to the nearest element.
 CandidatePoints tent_candidates(const LagrangeBasis& geometry, const SegmentFrames& frames) {
-  const auto crossed = [&](int tet, const auto& corners) {
+  const auto crossed = [&frames](int tet, const auto& corners) {
     const auto cell = [&](Eigen::Index k) {
-      const CoordinateSample at = frames.coordinates().sample(tet, corners.col(k));
-      return frames.cell(at.u, at.psi).index;
+      const Vec4 inside = (1 - kDrawnIn) * corners.col(k) + kDrawnIn * corners.rowwise().mean();
+      return frames.point_cell(tet, inside).index;
     };
+    const int first = cell(0);
     for (Eigen::Index k = 1; k < corners.cols(); ++k)
-      if (cell(k) != cell(0)) return true;
+      if (cell(k) != first) return true;
     return false;
   };
   CandidatePoints out;

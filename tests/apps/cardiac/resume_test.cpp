@@ -96,7 +96,7 @@ TEST_F(Resume, KilledAtTenMomentsGivesTheTablesOfTheUninterruptedRun) {
   std::mt19937 random(20);
   std::uniform_real_distribution<double> uniform;
   constexpr std::array kSignals{SIGKILL, SIGINT, SIGTERM};
-  int taken_up = 0, told = 0;
+  int taken_up = 0;
   for (int k = 0; k < 10; ++k) {
     const int signal = kSignals[k % kSignals.size()];
     const auto moment = (k + uniform(random)) / 10 * duration;
@@ -106,7 +106,6 @@ TEST_F(Resume, KilledAtTenMomentsGivesTheTablesOfTheUninterruptedRun) {
         arguments(out), [&] { std::this_thread::sleep_for(moment); }, signal);
     expect_no_half_file(out);
     if (status == 1) {
-      ++told;
       const json summary = json::parse(whole_file(out / "summary.json"));
       EXPECT_EQ(summary.at("completed"), false);
       EXPECT_THAT(std::string(summary.at("stop_reason")),
@@ -119,7 +118,7 @@ TEST_F(Resume, KilledAtTenMomentsGivesTheTablesOfTheUninterruptedRun) {
     for (const auto& entry : fs::directory_iterator(out))
       EXPECT_FALSE(entry.path().filename().string().starts_with('.')) << entry.path();
   }
-  EXPECT_GT(taken_up + told, 0) << "no run was interrupted while it solved or after its first beat";
+  EXPECT_GT(taken_up, 0) << "no run had come to its second beat";
 }
 
 TEST_F(Resume, FullOrder) {
@@ -129,9 +128,12 @@ TEST_F(Resume, FullOrder) {
   const auto second_beat = [&] {
     while (beats_in(out / "checkpoint.json") == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
   };
-  EXPECT_EQ(interrupted(arguments(out, fem), second_beat, SIGKILL), -1);
-  EXPECT_EQ(run_program(arguments(out, fem + " --resume")).status, 0);
-  expect_same_results(out, whole);
+  for (const auto& [signal, status] : {std::pair{SIGKILL, -1}, std::pair{SIGINT, 1}}) {
+    fs::remove_all(out);
+    EXPECT_EQ(interrupted(arguments(out, fem), second_beat, signal), status);
+    EXPECT_EQ(run_program(arguments(out, fem + " --resume")).status, 0);
+    expect_same_results(out, whole);
+  }
 }
 
 TEST_F(Resume, OnlyTheSameModel) {
