@@ -19,6 +19,7 @@
 #include "ellipsoid_mesh.hpp"
 #include "load_mesh.hpp"
 #include "progress.hpp"
+#include "warnings.hpp"
 
 namespace cardiac::app {
 namespace {
@@ -64,7 +65,7 @@ SceneResult beat(const BenchOptions& options) {
     check_mesh_file(protocol);
     std::vector<std::string> warnings;
     Anatomy anatomy = load_anatomy(protocol, warnings);
-    for (const std::string& text : warnings) std::cerr << "cardiac: warning: " << text << '\n';
+    print_warnings(warnings);
     return anatomy;
   };
   context.settings = options.settings;

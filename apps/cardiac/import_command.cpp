@@ -7,13 +7,13 @@
 #include <cardiac/anatomy/idealised.hpp>
 #include <cardiac/core/units.hpp>
 #include <polyaffine/core/error.hpp>
-#include <polyaffine/mesh/quality.hpp>
-#include <polyaffine/mesh/surface.hpp>
 
 #include "label_options.hpp"
+#include "mesh_report.hpp"
 #include "output_file.hpp"
 #include "read_heart.hpp"
 #include "surface_mesh.hpp"
+#include "warnings.hpp"
 
 #ifdef CARDIAC_WITH_VTK
 #include <polyaffine/vtk/write.hpp>
@@ -33,26 +33,18 @@ struct ImportOptions {
   bool all_fields = false;
 };
 
-double cavity_mL(const TetMesh& mesh, int label) {
-  return polyaffine::EnclosedVolume(mesh, {label}).value(mesh.points()) / mm3_per_mL;
-}
-
 void print_report(const TetMesh& mesh) {
   const bool right = mesh.surface({kRvEndocardium}).cols() > 0;
-  const auto quality = polyaffine::mesh_quality(mesh);
-  std::cout << "tets                 " << mesh.num_tets() << "\nvertices             " << mesh.num_points()
-            << "\nboundary triangles   " << mesh.boundary().cols() << " (endocardium "
-            << mesh.surface({kEndocardium}).cols() << ", epicardium " << mesh.surface({kEpicardium}).cols()
-            << ", base " << mesh.surface({kBase}).cols();
-  if (right) std::cout << ", right endocardium " << mesh.surface({kRvEndocardium}).cols();
-  if (const auto bare = mesh.surface({TetMesh::kUnlabelled}).cols(); bare > 0)
-    std::cout << ", unlabelled " << bare;
-  std::cout << ")\ncavity_volume_mL     " << (right ? "lv " : "") << cavity_mL(mesh, kEndocardium);
+  std::vector<NamedSurface> surfaces{
+      {kEndocardium, "endocardium"}, {kEpicardium, "epicardium"}, {kBase, "base"}};
+  if (right) surfaces.push_back({kRvEndocardium, "right endocardium"});
+  if (mesh.surface({TetMesh::kUnlabelled}).cols() > 0)
+    surfaces.push_back({TetMesh::kUnlabelled, "unlabelled"});
+  print_counts(mesh, surfaces);
+  std::cout << "cavity_volume_mL     " << (right ? "lv " : "") << cavity_mL(mesh, kEndocardium);
   if (right) std::cout << ", rv " << cavity_mL(mesh, kRvEndocardium);
-  std::cout << "\nwall_volume_mL       " << mesh.volume() / mm3_per_mL << "\nedge_length_mm       "
-            << quality.min_edge_mm << " to " << quality.max_edge_mm << ", mean " << quality.mean_edge_mm
-            << "\ndihedral_angle_deg   " << quality.min_dihedral_deg << " to " << quality.max_dihedral_deg
-            << '\n';
+  std::cout << "\nwall_volume_mL       " << mesh.volume() / mm3_per_mL << '\n';
+  print_quality(mesh);
 }
 
 HeartMesh read(const ImportOptions& o) {
@@ -87,8 +79,9 @@ void import(const ImportOptions& o) {
   check_output_file(o.out, ".vtu");
   const HeartMesh heart = read(o);
   write(o, heart);
-  for (const std::string& text : heart.warnings)
-    std::cerr << "cardiac: warning: " << o.file.string() << ": " << text << '\n';
+  std::vector<std::string> warnings;
+  for (const std::string& text : heart.warnings) warnings.push_back(o.file.string() + ": " + text);
+  print_warnings(warnings);
   std::cout << "read                 " << o.file.string() << '\n';
   for (const std::string& note : heart.file.notes) std::cout << "                     " << note << '\n';
   print_report(heart.file.mesh);

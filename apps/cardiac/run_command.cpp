@@ -27,6 +27,7 @@
 #include "progress.hpp"
 #include "run_files.hpp"
 #include "wall_figure.hpp"
+#include "warnings.hpp"
 
 namespace cardiac::app {
 namespace {
@@ -46,10 +47,6 @@ void print_plan(const std::vector<PlanItem>& items) {
     std::cout << std::left << std::setw(static_cast<int>(width) + 2) << item.part
               << (item.built ? "built     " : "left out  ") << item.why << '\n';
   }
-}
-
-void print_warnings(const std::vector<std::string>& warnings) {
-  for (const std::string& warning : warnings) std::cerr << "cardiac: warning: " << warning << '\n';
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {

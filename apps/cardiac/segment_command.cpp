@@ -21,6 +21,7 @@
 #include "load_mesh.hpp"
 #include "output_file.hpp"
 #include "read_heart.hpp"
+#include "warnings.hpp"
 
 #ifdef CARDIAC_WITH_VTK
 #include <polyaffine/vtk/write.hpp>
@@ -154,7 +155,7 @@ void segment(const SegmentOptions& o) {
   check_output_file(o.out, ".vtu");
   std::vector<std::string> warnings;
   const Anatomy anatomy = load_anatomy(protocol, warnings);
-  for (const std::string& text : warnings) std::cerr << "cardiac: warning: " << text << '\n';
+  print_warnings(warnings);
   const auto nodes =
       control_nodes(anatomy.mesh, *anatomy.coordinates, frame_layout(anatomy.mesh, *anatomy.coordinates));
   write_fields(o, anatomy, nodes);

@@ -86,9 +86,8 @@ HeartState filled_state(const Ventricle& ventricle, const protocol::Circulation&
 // The wall in equilibrium at the filling pressure. On failure the path says so.
 bool fill(const Ventricle& ventricle, const protocol::Circulation& circulation, const Vector& tension,
           const RunControl& control, HeartPath& path, Vector& c) {
-  const auto problem = loaded_ventricle(ventricle, {0, Vector::Zero(tension.size())},
-                                        {circulation.filling_pressure_mmHg * kPa_per_mmHg, tension,
-                                         circulation.right_filling_pressure_mmHg * kPa_per_mmHg});
+  const auto problem = loaded_ventricle(ventricle, {circulation.filling_pressure_mmHg * kPa_per_mmHg, tension,
+                                                    circulation.right_filling_pressure_mmHg * kPa_per_mmHg});
   const auto system = ventricle.make_system();
   polyaffine::LoadOptions options;
   options.interrupted = [&] { return stop_wanted(control); };

@@ -145,8 +145,7 @@ std::vector<State> loaded_states(const Ventricle& ventricle, const WallLoad& loa
   options.newton.tolerance = options.newton.dilatation_tolerance = 1e-5;
   options.on_step = [&](double reached, const Vector& at) { path.push_back({at, reached}); };
   Vector c = Vector::Zero(ventricle.num_coefficients());
-  polyaffine::load_stepping(loaded_ventricle(ventricle, load.pressure_kPa, load.tension),
-                            *ventricle.make_system(), c, options);
+  polyaffine::load_stepping(loaded_ventricle(ventricle, load), *ventricle.make_system(), c, options);
   if (path.size() > 2) path = {path[path.size() / 2 - 1], path.back()};
   return path;
 }
@@ -184,7 +183,7 @@ double rule_error(const Ventricle& ventricle, const HeartState& state, double cl
   system->set_zero();
   Vector lack = Vector::Zero(c.size());
   const auto add = [&](const Ventricle& v, double sign) {
-    const auto problem = loaded_ventricle(v, state.pressure_kPa, tension(v));
+    const auto problem = loaded_ventricle(v, {state.pressure_kPa, tension(v)});
     for (const auto& term : problem.terms) {
       lack += sign * term.scale(1) * term.energy->evaluate({c, term.state(1)}).gradient;
       if (sign > 0) term.energy->add_tangent({c, term.state(1)}, *system, term.scale(1));

@@ -179,9 +179,8 @@ Ventricle assemble_ventricle(std::shared_ptr<const Anatomy> anatomy, const Proto
   return out;
 }
 
-polyaffine::EquilibriumProblem loaded_ventricle(const Ventricle& ventricle, double pressure_kPa,
-                                                const Vector& tension) {
-  return loaded_ventricle(ventricle, {0, Vector::Zero(tension.size())}, {pressure_kPa, tension});
+polyaffine::EquilibriumProblem loaded_ventricle(const Ventricle& ventricle, const WallLoad& load) {
+  return loaded_ventricle(ventricle, {0, Vector::Zero(load.tension.size())}, load);
 }
 
 polyaffine::EquilibriumProblem loaded_ventricle(const Ventricle& ventricle, const WallLoad& from,

@@ -64,8 +64,7 @@ struct WallLoad {
 polyaffine::EquilibriumProblem loaded_ventricle(const Ventricle& ventricle, const WallLoad& from,
                                                 const WallLoad& to);
 
-/// Both pressure and tension ramped up from zero.
-polyaffine::EquilibriumProblem loaded_ventricle(const Ventricle& ventricle, double pressure_kPa,
-                                                const polyaffine::Vector& tension);
+/// The whole load ramped up from zero.
+polyaffine::EquilibriumProblem loaded_ventricle(const Ventricle& ventricle, const WallLoad& load);
 
 }  // namespace cardiac

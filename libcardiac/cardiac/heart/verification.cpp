@@ -40,8 +40,7 @@ Comparison compare(const Ventricle& reduced, const Ventricle& full, const HeartS
   const auto& elements = dynamic_cast<const polyaffine::LagrangeBasis&>(*full.discretisation.basis);
   const auto& points = full.discretisation.points;
   const Vector tension = full.contraction ? full.contraction->tension(clock_ms) : Vector();
-  const auto problem = loaded_ventricle(full, {0, Vector::Zero(tension.size())},
-                                        {state.pressure_kPa, tension, state.right_pressure_kPa});
+  const auto problem = loaded_ventricle(full, {state.pressure_kPa, tension, state.right_pressure_kPa});
   const auto system = full.make_system();
   Vector c = nodal_displacement(elements, *reduced.discretisation.basis, state.c);
   polyaffine::NewtonOptions options;

@@ -66,6 +66,7 @@ PlatenSolution solve(const CubeScene& scene, std::shared_ptr<const Basis> basis,
   out.c = Vector::Zero(3 * basis->num_functions());
   const NewtonReport report = newton(problem, 1, system, out.c);
   out.solve_s = processor_seconds() - built;
+  out.newton_iterations = report.iterations;
   if (!report.converged()) throw ComputationError("cube between platens: " + to_string(report.reason));
   const QuadraturePoints at = centroids(scene.mesh);
   const FieldEnergy& energy = *problem.terms[0].energy;
@@ -147,13 +148,16 @@ PlatenSolution solve_platens_reduced(const CubeScene& scene, const CubePlacement
   return solve(scene, basis, problem, *system, start);
 }
 
-PlatenRow compare_platens(const CubeScene& scene, const PlatenSolution& truth, int zones, int points,
-                          int placements) {
+double platen_error_percent(const CubeScene& scene, const PlatenSolution& truth, const Points& displacement) {
   const QuadraturePoints at = centroids(scene.mesh);
-  const Vector weight = at.weights.cwiseSqrt();
+  const auto norm = [&](const Points& u) { return (u * at.weights.cwiseSqrt().asDiagonal()).norm(); };
   Points bulge = truth.displacement;
   bulge.row(2) += kApproach / kCubeSize * positions(scene.mesh, at).row(2);
-  const double size = (bulge * weight.asDiagonal()).norm();
+  return 100 * norm(displacement - truth.displacement) / norm(bulge);
+}
+
+PlatenRow compare_platens(const CubeScene& scene, const PlatenSolution& truth, int zones, int points,
+                          int placements) {
   std::mt19937_64 random(static_cast<unsigned>(zones));
   PlatenRow row{zones, points, 12 * zones, placements};
   for (int k = 0; k < placements; ++k) {
@@ -162,8 +166,7 @@ PlatenRow compare_platens(const CubeScene& scene, const PlatenSolution& truth, i
     row.redraws += placement.redraws;
     row.thickness_error_percent +=
         100 * std::abs(found.thickness_change_mm / truth.thickness_change_mm - 1) / placements;
-    row.displacement_error_percent +=
-        100 * ((found.displacement - truth.displacement) * weight.asDiagonal()).norm() / size / placements;
+    row.displacement_error_percent += platen_error_percent(scene, truth, found.displacement) / placements;
   }
   return row;
 }

@@ -14,7 +14,7 @@ struct PlatenSolution {
   polyaffine::Points displacement;  ///< at the centroids of the tets, for the same approach
   std::shared_ptr<const polyaffine::Basis> basis;
   polyaffine::Vector c;  ///< coefficients of the basis, for the same approach
-  int integration_points = 0;
+  int integration_points = 0, newton_iterations = 0;
   double setup_s = 0, solve_s = 0;  ///< processor time, of functions and energy and of Newton
 };
 
@@ -32,11 +32,16 @@ std::shared_ptr<const polyaffine::Basis> platen_basis(const CubeScene& scene, co
 /// pressure leaves the dilatation of twelve unknowns too free.
 PlatenSolution solve_platens_reduced(const CubeScene& scene, const CubePlacement& placement);
 
+/// L2 error of a displacement at the centroids of the truth's tets (for the same approach) relative to the
+/// bulge: the true displacement beside homogeneous compression.
+double platen_error_percent(const CubeScene& scene, const PlatenSolution& truth,
+                            const polyaffine::Points& displacement);
+
 /// Errors against the truth of one number of zones, means over placements.
 struct PlatenRow {
   int zones = 0, points = 0, unknowns = 0, placements = 0, redraws = 0;
   double thickness_error_percent = 0;     ///< mean absolute value
-  double displacement_error_percent = 0;  ///< L2, relative to the bulge: truth minus homogeneous compression
+  double displacement_error_percent = 0;  ///< platen_error_percent
 };
 
 PlatenRow compare_platens(const CubeScene& scene, const PlatenSolution& truth, int zones, int points,

@@ -104,7 +104,7 @@ EllipsoidProblem::Solution EllipsoidProblem::solve(Ventricle ventricle,
                                                    int repetitions) const {
   Solution out{std::move(ventricle), {}, 0, true};
   const auto system = projection ? polyaffine::projected_system(projection) : out.ventricle.make_system();
-  auto problem = loaded_ventricle(out.ventricle, pressure_, {});
+  auto problem = loaded_ventricle(out.ventricle, {pressure_});
   if (projection) {
     problem.fixed.clear();
     problem.projection = projection;

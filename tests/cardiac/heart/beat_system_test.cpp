@@ -138,7 +138,7 @@ TEST(BeatSystem, StartIsConsistentWithTheFlowOfTheValves) {
     const Vector rest = beat.ventricle.contraction->tension(0);
     Vector c = Vector::Zero(beat.ventricle.num_coefficients());
     const auto linear = beat.ventricle.make_system();
-    ASSERT_TRUE(polyaffine::load_stepping(loaded_ventricle(beat.ventricle, loop.filling_pressure_kPa, rest),
+    ASSERT_TRUE(polyaffine::load_stepping(loaded_ventricle(beat.ventricle, {loop.filling_pressure_kPa, rest}),
                                           *linear, c)
                     .converged());
     HeartState state{0, c, beat.ventricle.cavity_volume(c), loop.filling_pressure_kPa, 80 * kPa_per_mmHg};

@@ -67,7 +67,7 @@ constexpr double kPressure = 8, kClock = 300;  // kPa; ms, in the middle of cont
 
 Vector equilibrium(const Ventricle& v) {
   Vector c = Vector::Zero(v.num_coefficients());
-  const auto problem = loaded_ventricle(v, kPressure, v.contraction->tension(kClock));
+  const auto problem = loaded_ventricle(v, {kPressure, v.contraction->tension(kClock)});
   EXPECT_TRUE(polyaffine::load_stepping(problem, *v.make_system(), c).converged());
   return c;
 }
