@@ -183,7 +183,7 @@ void VentricularCoordinates::solve_transmural(const polyaffine::TetMesh& mesh, c
   for (const int n : space_->surface_nodes(mesh, {labels.epi})) values.push_back({n, 1.0});
   if (right_)
     for (const int n : space_->surface_nodes(mesh, {*labels.rv_endo})) values.push_back({n, 1.0});
-  const Vector harmonic = polyaffine::solve_laplace(*space_, values);
+  const Vector harmonic = right_ ? right_->left_depth() : polyaffine::solve_laplace(*space_, values);
   const polyaffine::WallPoints points = space_->wall_points(3);
   Vector steepness(points.weights.size());
   Vector left = points.weights;  // zero beyond the left wall and the septum

@@ -104,7 +104,8 @@ RightVentricularCoordinates::RightVentricularCoordinates(const polyaffine::TetMe
   prescribe(for_t, right, 0);
   const Vector v = polyaffine::solve_laplace(*space_, for_v);
   const Vector q = polyaffine::solve_laplace(*space_, for_q);
-  w_ = q + v - polyaffine::solve_laplace(*space_, for_t0);
+  left_depth_ = polyaffine::solve_laplace(*space_, for_t0);
+  w_ = q + v - left_depth_;
   septal_ = v - q;
   t_ = polyaffine::solve_laplace(*space_, for_t);
 }

@@ -51,13 +51,15 @@ class RightVentricularCoordinates {
 
   const polyaffine::Vec3& base_centre() const { return base_centre_; }  ///< of the rim of the right cavity
   const polyaffine::Vector& transventricular() const { return w_; }     ///< at the nodes of the space
+  /// Harmonic, 0 on the left endocardium, 1 on the epicardium and the right endocardium; at the nodes.
+  const polyaffine::Vector& left_depth() const { return left_depth_; }
   const polyaffine::Vector& transmural() const { return t_; }
 
  private:
   polyaffine::Vec3 from_axis(const polyaffine::Vec3& X) const;
 
   std::shared_ptr<const polyaffine::LagrangeBasis> space_;
-  polyaffine::Vector w_, septal_, t_;
+  polyaffine::Vector w_, septal_, left_depth_, t_;
   polyaffine::Vec3 axis_, base_centre_, anterior_, outward_, long_axis_;
   double length_ = 0, middle_ = 0, half_angle_ = 1;
 };

@@ -15,7 +15,8 @@ using polyaffine::Vector;
 
 namespace {
 
-constexpr const char* kKind = "cubature-1";  // the number changes when the training does
+constexpr const char* kKind =
+    "cubature-2";  // the number changes when the training or the points it chooses from do
 
 // The mesh and the parts of a protocol that the training reads.
 std::string rule_key(const Anatomy& anatomy, const Protocol& protocol) {
@@ -25,9 +26,7 @@ std::string rule_key(const Anatomy& anatomy, const Protocol& protocol) {
   if (protocol.circulation) parts["circulation"] = true;
   if (protocol.contraction)
     parts["contraction"] = {{"cross_fibre_fraction", protocol.contraction->cross_fibre_fraction}};
-  const auto& l = anatomy.labels;
-  return polyaffine::digest(anatomy.mesh) + " labels " + std::to_string(l.endo) + ' ' +
-         std::to_string(l.epi) + ' ' + std::to_string(l.base) + ' ' + parts.dump();
+  return polyaffine::digest(anatomy.mesh) + ' ' + parts.dump();
 }
 
 void write_rule(const CompressedRule& rule, std::ostream& out) {
