@@ -18,13 +18,14 @@ struct Series {
 };
 
 // Okabe & Ito's colours, apart for every common kind of colour blindness.
-constexpr std::array<Series, 6> kSeries{
+constexpr std::array<Series, 7> kSeries{
     {{"fem_p1", "", "", "linear full order (unknowns)", "#7f7f7f", Shape::square},
      {"fem_p2", "", "", "quadratic full order (unknowns)", "#222222", Shape::circle},
      {"polyaffine", "fast", "cells", "fast, compressed points (nodes)", "#0072b2", Shape::triangle},
      {"polyaffine", "fast", "gauss", "fast, all Gauss points", "#0072b2", Shape::triangle},
      {"polyaffine", "accurate", "cells", "accurate, compressed points (nodes)", "#d55e00", Shape::diamond},
-     {"polyaffine", "accurate", "gauss", "accurate, all Gauss points", "#d55e00", Shape::diamond}}};
+     {"polyaffine", "accurate", "gauss", "accurate, all Gauss points", "#d55e00", Shape::diamond},
+     {"polyaffine", "", "", "affine frames of the cube (zones)", "#009e73", Shape::triangle}}};
 
 constexpr double kPanelWidth = 400, kPanelHeight = 300, kPitchX = 500, kPitchY = 400, kLeft = 80, kTop = 130;
 
