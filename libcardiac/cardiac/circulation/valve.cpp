@@ -4,17 +4,18 @@
 #include <cmath>
 
 namespace cardiac {
+namespace {
+constexpr double kOrdinaryResistance = 0.01 * resistance_per_mmHg_s_per_mL;
+}  // namespace
 
 ValveFlow valve_flow(const Valve& valve, double pressure_drop_kPa) {
-  const double eps = valve.smoothing_kPa;
-  const auto opening = [&](double drop) {
-    const double tail = std::exp(-std::abs(drop) / eps);
-    return ValveFlow{std::max(drop, 0.0) + eps * std::log1p(tail), (drop > 0 ? 1 : tail) / (1 + tail)};
-  };
-  const ValveFlow forward = opening(pressure_drop_kPa), backward = opening(-pressure_drop_kPa);
-  const double r = valve.resistance_kPa_ms_per_mm3, leak = valve.leak_kPa_ms_per_mm3;
-  return {forward.flow_mm3_per_ms / r - backward.flow_mm3_per_ms / leak,
-          forward.slope / r + backward.slope / leak};
+  const double r = valve.resistance_kPa_ms_per_mm3 / kOrdinaryResistance;
+  const double eps = valve.smoothing_kPa * std::sqrt(std::min(r, 1.0)),
+               root = std::hypot(pressure_drop_kPa, eps);
+  const auto opening = [&](double drop) { return drop > 0 ? root + drop : eps * eps / (root - drop); };
+  const double forward = opening(pressure_drop_kPa) / (2 * valve.resistance_kPa_ms_per_mm3);
+  const double backward = opening(-pressure_drop_kPa) / (2 * valve.leak_kPa_ms_per_mm3);
+  return {forward - backward, (forward + backward) / root};
 }
 
 bool is_open(const Valve& valve, double pressure_drop_kPa) {

@@ -18,17 +18,17 @@ struct ValveFlow {
   double slope;  ///< ∂q/∂Δp in mm³/(ms·kPa), positive
 };
 
-/// q(Δp) = s(Δp)/R − s(−Δp)/R_leak with s(x) = ε ln(1 + exp(x/ε)) and Δp the pressure before minus the
+/// q(Δp) = (√(Δp² + ε²) + Δp) / (2R) − (√(Δp² + ε²) − Δp) / (2R_leak), with Δp the pressure before minus the
 /// pressure behind the valve.
 ///
-/// Without a leak never negative and never decreasing; Δp/R when open, 0.69 ε/R at Δp = 0, and when closed
-/// below ε/R exp(−|Δp|/ε), nothing that a double holds from |Δp| = 745 ε on: an algebraic tail would let a
-/// valve of tiny R leak forward. Evaluated without overflow or cancellation. R, R_leak and ε must be
-/// positive.
+/// Without a leak always positive and increasing; Δp/R when open, ε/(2R) at Δp = 0, and ε²/(4R|Δp|) when
+/// closed: with ε 0.05 mmHg and R 0.01 mmHg·s/mL a closed valve under 100 mmHg leaks 0.0006 mL/s, forward.
+/// Below that resistance R₀ it is ε√(R/R₀), so that no valve leaks more than that. Evaluated without
+/// cancellation on both sides. R, R_leak and ε must be positive.
 ValveFlow valve_flow(const Valve& valve, double pressure_drop_kPa);
 
-/// Whether a valve counts as open: Δp > −10 ε, that is a flow above 4.5e-5 ε/R. The margin keeps a valve
-/// through which filling has come to rest (Δp → 0⁻) open until the pressure really turns.
+/// Whether a valve counts as open: Δp > −10 ε, that is a flow above ε/(40R). The margin keeps a valve through
+/// which filling has come to rest (Δp → 0⁻) open until the pressure really turns.
 bool is_open(const Valve& valve, double pressure_drop_kPa);
 
 }  // namespace cardiac

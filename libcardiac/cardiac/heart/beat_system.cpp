@@ -13,6 +13,9 @@ using polyaffine::Vector;
 
 namespace {
 
+constexpr int kMaxLoopIterations = 30;
+constexpr double kLoopTolerance = 1e-10;
+
 // Adds the seconds of its life to a sum.
 class Stopwatch {
  public:
@@ -70,7 +73,9 @@ bool BeatSystem::residual(double t, const Vector& y, const Vector& rate, Vector&
   const auto& fixed = ventricle_.discretisation.fixed;
   for (int i = 0; i < num_c_; ++i)
     if (fixed[i]) out[i] = c[i];
-  circulating_ = circulation_->rates(states(y), p);
+  circulating_states_ = states(y);
+  circulating_pressures_ = p;
+  circulating_ = circulation_->rates(circulating_states_, p);
   out.tail(num_states_) = states(rate) - circulating_.values;
   return true;
 }
@@ -100,26 +105,41 @@ bool BeatSystem::factorise(double t, const Vector& y, const Vector& rate, double
       if (fixed[i]) volume_gradient_(i, k) = 0;
     solved_gradient_.col(k) = system_->solve(volume_gradient_.col(k));
   }
-  circulating_ = circulation_->rates(states(y), p);
   alpha_ = alpha;
   return true;
 }
 
-// Rows, with s = [V, z]: K δc − g δp = r_c,  δV − gᵀδc = r_V,  (α − ∂f/∂s) δs − ∂f/∂p δp = r_s.
+// Rows, with s = [V, z]: K δc − g δp = r_c,  δV − gᵀδc = r_V,  α δs − f(s + δs, p + δp) + f(s, p) = r_s.
+// The wall is linearised; the circulation's few equations, which stiff valves bend sharply, are met as they
+// are.
 bool BeatSystem::solve(const Vector& rhs, Vector& x) {
   const Stopwatch watch(cost_.linear_solve_s);
   ++cost_.linear_solves;
   const int n = num_states_, m = num_cavities_;
   const Vector w = system_->solve(rhs.head(num_c_));
   polyaffine::Matrix A = polyaffine::Matrix::Zero(n + m, n + m);
-  A.topLeftCorner(n, n) = -circulating_.by_states;
-  A.topLeftCorner(n, n).diagonal().array() += alpha_;
-  A.topRightCorner(n, m) = -circulating_.by_pressures;
   A.bottomLeftCorner(m, m).setIdentity();
   A.bottomRightCorner(m, m) = -volume_gradient_.transpose() * solved_gradient_;
   Vector b(n + m);
-  b << rhs.tail(n), rhs.segment(num_c_, m) + volume_gradient_.transpose() * w;
-  const Vector loop = A.partialPivLu().solve(b);
+  b << rhs.tail(n) - circulating_.values, rhs.segment(num_c_, m) + volume_gradient_.transpose() * w;
+  CirculationModel::Rates flows = circulating_;
+  Vector loop = Vector::Zero(n + m);
+  const auto miss = [&] {
+    Vector r = b - A * loop;
+    r.head(n) = b.head(n) - alpha_ * loop.head(n) + flows.values;
+    return r;
+  };
+  Vector r = miss();
+  for (int k = 0; k < kMaxLoopIterations; ++k) {
+    A.topLeftCorner(n, n) = -flows.by_states;
+    A.topLeftCorner(n, n).diagonal().array() += alpha_;
+    A.topRightCorner(n, m) = -flows.by_pressures;
+    const Vector step = A.partialPivLu().solve(r);
+    loop += step;
+    flows = circulation_->rates(circulating_states_ + loop.head(n), circulating_pressures_ + loop.tail(m));
+    r = miss();
+    if (step.norm() <= kLoopTolerance * loop.norm()) break;
+  }
   x.resize(size());
   x << w + solved_gradient_ * loop.tail(m), loop.head(m), loop.tail(m), loop.segment(m, n - m);
   return x.allFinite();

@@ -17,6 +17,9 @@ class BeatSystem : public polyaffine::DaeSystem {
                 polyaffine::Vector& out) override;
   bool factorise(double t, const polyaffine::Vector& y, const polyaffine::Vector& rate,
                  double alpha) override;
+  /// Newton's correction x for the right side −R of the residual evaluated last: the wall linearised as
+  /// factorised, the circulation met as it is (its own equations solved to 1e-10), since stiff valves bend
+  /// sharply.
   bool solve(const polyaffine::Vector& rhs, polyaffine::Vector& x) override;
 
   polyaffine::Vector pack(const HeartState& state) const;
@@ -56,6 +59,7 @@ class BeatSystem : public polyaffine::DaeSystem {
   polyaffine::Vector tension_;
   polyaffine::Matrix volume_gradient_, solved_gradient_;  // g and K⁻¹g of the last factorisation, by cavity
   CirculationModel::Rates circulating_;  // at the state evaluated last: valves open and close within a step
+  polyaffine::Vector circulating_states_, circulating_pressures_;  // that state
   double alpha_ = 0;
   double min_det_ = 1, max_det_ = 1;
   SolveCost cost_;

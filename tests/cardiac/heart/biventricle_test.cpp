@@ -86,7 +86,9 @@ TEST(BiventricleHeart, SolveInvertsTheDerivativeOfTheResidual) {
   ASSERT_TRUE(system.residual(250, y - h * d, rate - alpha * h * d, minus));
   ASSERT_TRUE(system.residual(250, y, rate, x));
   ASSERT_TRUE(system.factorise(250, y, rate, alpha));
-  ASSERT_TRUE(system.solve((plus - minus) / (2 * h), x));
+  const double small = 1e-5;  // so that the circulation, which is solved as it is, is linear to 1e-5
+  ASSERT_TRUE(system.solve(small * (plus - minus) / (2 * h), x));
+  x /= small;
   EXPECT_LT((x - d).head(n).norm(), 1e-4 * d.head(n).norm());
   EXPECT_LT((x - d).tail(8).cwiseQuotient(d.tail(8)).cwiseAbs().maxCoeff(), 1e-4);
 }
