@@ -13,6 +13,7 @@ ProgressLine::~ProgressLine() {
 }
 
 void ProgressLine::operator()(const std::string& what, double fraction) {
+  const std::scoped_lock lock(mutex_);
   const auto now = Clock::now();
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   if (!active_ || elapsed < 2 || std::chrono::duration<double>(now - last_).count() < 0.2) return;

@@ -1,12 +1,13 @@
 #pragma once
 
 #include <chrono>
+#include <mutex>
 #include <string>
 
 namespace cardiac::app {
 
 /// One line on stderr that shows what runs, how far it is and when it will be done; only on a terminal, only
-/// after two seconds, and cleared at the end.
+/// after two seconds, and cleared at the end. Any thread may call it.
 class ProgressLine {
  public:
   explicit ProgressLine(bool quiet);
@@ -17,6 +18,7 @@ class ProgressLine {
 
  private:
   using Clock = std::chrono::steady_clock;
+  std::mutex mutex_;
   bool shown_ = false, active_;
   Clock::time_point start_ = Clock::now(), last_ = start_;
 };
