@@ -92,6 +92,7 @@ void make_closed_surface(MeshData& data) {
   if (data.triangles.cols() == 0) fail(data, "found no triangles, expected a closed surface");
   join_points(data);
   drop_collapsed(data);
+  if (data.triangles.cols() == 0) fail(data, "found only triangles without area, expected a closed surface");
   const TriangleAdjacency adjacency = triangle_adjacency(data.triangles);
   if (!adjacency.crowded.empty())
     fail(data, "found " + std::to_string(adjacency.crowded.size()) +
