@@ -16,6 +16,7 @@
 
 #include <new>
 #include <polyaffine/core/error.hpp>
+#include <polyaffine/vtk/child_process.hpp>
 #include <polyaffine/vtk/message_trap.hpp>
 
 namespace polyaffine {
@@ -109,14 +110,7 @@ std::map<std::string, Matrix> fields(vtkFieldData& arrays, const std::vector<vtk
   return out;
 }
 
-}  // namespace
-
-bool is_vtk_file(const path& file) {
-  const std::string extension = file.extension().string();
-  return extension == ".vtu" || extension == ".vtk" || extension == ".vtp";
-}
-
-MeshData read_vtk_data(const path& file) {
+MeshData read(const path& file) {
   const auto grid = load(file);
   MeshData data;
   data.source = file;
@@ -131,6 +125,17 @@ MeshData read_vtk_data(const path& file) {
   data.tet_fields = fields(*grid->GetCellData(), cells.tets);
   data.triangle_fields = fields(*grid->GetCellData(), cells.triangles);
   return data;
+}
+
+}  // namespace
+
+bool is_vtk_file(const path& file) {
+  const std::string extension = file.extension().string();
+  return extension == ".vtu" || extension == ".vtk" || extension == ".vtp";
+}
+
+MeshData read_vtk_data(const path& file) {
+  return read_in_child(file, [&file] { return read(file); });
 }
 
 }  // namespace polyaffine
