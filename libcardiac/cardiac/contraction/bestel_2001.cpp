@@ -29,7 +29,7 @@ void require_positive(double value, const char* name, const char* unit) {
 void check(const BestelParameters& p, double period_ms) {
   require_positive(p.activation_rate_per_ms, "activation rate", "1/ms");
   require_positive(p.relaxation_rate_per_ms, "relaxation rate", "1/ms");
-  require_positive(p.contractility_kPa, "contractility", "kPa");
+  if (p.contractility_kPa != 0) require_positive(p.contractility_kPa, "contractility", "kPa");
   require_positive(p.steepness_ms, "steepness", "ms");
   require_positive(period_ms, "heart period", "ms");
   std::ostringstream text;
@@ -66,11 +66,11 @@ std::vector<TensionCurve::Sample> integrate(const BestelParameters& p, double pe
     slope[0] = tension_rate(p, period_ms, time, tension[0]);
   };
   const Vector times = Vector::LinSpaced(intervals + 1, begin, begin + spacing * intervals);
-  const polyaffine::OdeSolution solution =
-      polyaffine::solve_ode(rate, begin, Vector::Constant(1, initial_tension), times,
-                            {.relative_tolerance = 1e-10,
-                             .absolute_tolerance = 1e-12 * p.contractility_kPa,
-                             .max_step = p.steepness_ms});
+  const polyaffine::OdeSolution solution = polyaffine::solve_ode(
+      rate, begin, Vector::Constant(1, initial_tension), times,
+      {.relative_tolerance = 1e-10,
+       .absolute_tolerance = 1e-12 * (p.contractility_kPa > 0 ? p.contractility_kPa : 1),
+       .max_step = p.steepness_ms});
   if (!solution.finished()) throw polyaffine::ComputationError("contraction: " + solution.message);
 
   std::vector<TensionCurve::Sample> nodes(times.size());
@@ -124,7 +124,7 @@ TensionCurve::TensionCurve(const BestelParameters& p, double period_ms) : period
     relaxation_.nodes = integrate(p, period_ms, end_ms_, relaxation_.spacing_ms, relaxing, peak_tension_kPa_);
     const double change = relaxation_.nodes.back().tension_kPa - initial_tension;
     initial_tension += change;
-    if (std::abs(change) < 1e-10 * p.contractility_kPa) return;
+    if (std::abs(change) <= 1e-10 * p.contractility_kPa) return;
     if (beat == 100) throw polyaffine::ComputationError("contraction: no periodic tension within 100 beats");
   }
 }

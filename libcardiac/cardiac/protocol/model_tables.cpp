@@ -85,13 +85,13 @@ Table reduction_table() {
       .key("method", &Reduction::method,
            {.meaning = "polyaffine: control frames, one a segment unless ring_nodes says otherwise, "
                        "enriched; fem: full-order finite elements"})
-      .key(
-          "preset", &Reduction::preset,
-          {.meaning = "set of enrichment and pressure_space: fast {tt; segment_depth}, accurate {tt, lt, ct, "
-                      "ltt, ctt, ttt; segment_bilinear}",
-           .source =
-               "measured on the Land ellipsoid: a few per cent of displacement error, and about half of "
-               "it"})
+      .key("preset", &Reduction::preset,
+           {.meaning =
+                "set of enrichment and pressure_space: fast {tt, lt; segment_depth}, accurate {tt, lt, ct, "
+                "ltt, ctt, ttt; segment_bilinear}",
+            .source =
+                "measured on the Land ellipsoid: a few per cent of displacement error, and about half of "
+                "it"})
       .key("weights", &Reduction::weights,
            {.meaning =
                 "influence of a control node: tents (piecewise linear in ventricular coordinates) or sigmoid "

@@ -157,7 +157,7 @@ void fill_presets(Reduction& reduction) {
   const bool fast = reduction.preset == Preset::fast;
   using Words = std::vector<std::string>;
   if (!reduction.enrichment)
-    reduction.enrichment = fast ? Words{"tt"} : Words{"tt", "lt", "ct", "ltt", "ctt", "ttt"};
+    reduction.enrichment = fast ? Words{"tt", "lt"} : Words{"tt", "lt", "ct", "ltt", "ctt", "ttt"};
   if (!reduction.pressure_space) {
     reduction.pressure_space = fast ? PressureSpace::segment_depth : PressureSpace::segment_bilinear;
   }

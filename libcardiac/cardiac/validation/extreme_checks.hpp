@@ -52,7 +52,7 @@ class ExtremeChecks {
   const ExtremeMesh& coarse_wall() const { return coarse_wall_; }
 
   /// Runs a protocol with settings key=value on a mesh; refusals and failures are part of the outcome. A run
-  /// of more than two minutes is stopped.
+  /// of more than five minutes is stopped.
   ExtremeOutcome run(const std::string& scene, const ExtremeMesh& mesh, const std::string& protocol,
                      const std::vector<std::string>& settings) const;
 

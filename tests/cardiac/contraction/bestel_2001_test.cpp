@@ -169,12 +169,19 @@ TEST(Bestel, RejectsParametersWithoutMeaning) {
     EXPECT_THROW(TensionCurve(p, period), polyaffine::InputError);
   };
   rejects([](auto& p) { p.activation_rate_per_ms = -1; });
-  rejects([](auto& p) { p.contractility_kPa = 0; });
+  rejects([](auto& p) { p.contractility_kPa = -1; });
   rejects([](auto& p) { p.steepness_ms = std::nan(""); });
   rejects([](auto& p) { p.diastole_ms = p.systole_ms; });
   rejects([](auto& p) { p.diastole_ms = p.systole_ms + 5; });  // shorter than the switches are wide
   rejects([](auto&) {}, 300);                                  // next contraction before relaxation
   rejects([](auto&) {}, 325);                                  // one millisecond to relax
+}
+
+TEST(TensionCurve, WithoutContractilityThereIsNone) {
+  BestelParameters p;
+  p.contractility_kPa = 0;
+  const TensionCurve curve(p, 800);
+  for (const double t : {0.0, 150.0, 300.0, 700.0}) EXPECT_EQ(curve.at(t).tension_kPa, 0) << t;
 }
 
 }  // namespace

@@ -213,7 +213,7 @@ TEST(Resolved, ReadsBackAsTheSameProtocol) {
 TEST(Resolved, HoldsDefaultsAndLeavesOutWhatPlaysNoPart) {
   const json passive = cardiac::resolved_json(parsed(kPassive));
   EXPECT_EQ(passive.at("time").at("heart_rate_bpm"), 75);
-  EXPECT_EQ(passive.at("reduction").at("enrichment"), json({"tt"}));
+  EXPECT_EQ(passive.at("reduction").at("enrichment"), json({"tt", "lt"}));
   EXPECT_TRUE(passive.at("tissue").contains("mu_kPa"));
   EXPECT_FALSE(passive.at("tissue").contains("C_kPa"));
   EXPECT_FALSE(passive.contains("circulation"));

@@ -53,7 +53,7 @@ TEST(Parse, AbsentTablesStayAbsentAndNamedOnesTakeDefaults) {
 TEST(Parse, PresetFillsWhatTheFileLeavesOut) {
   using cardiac::protocol::PressureSpace;
   const auto fast = parsed(kPassive).reduction;
-  EXPECT_EQ(fast.enrichment, (std::vector<std::string>{"tt"}));
+  EXPECT_EQ(fast.enrichment, (std::vector<std::string>{"tt", "lt"}));
   EXPECT_EQ(fast.pressure_space, PressureSpace::segment_depth);
   const auto accurate = parsed(kPassive + "[reduction]\npreset = \"accurate\"\nenrichment = []\n").reduction;
   EXPECT_EQ(accurate.enrichment, std::vector<std::string>{});
