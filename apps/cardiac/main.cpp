@@ -2,7 +2,6 @@
 #include <iostream>
 
 #include <polyaffine/core/error.hpp>
-#include <polyaffine/core/serial_blas.hpp>
 
 #include "bench_command.hpp"
 #include "explain_command.hpp"
@@ -50,7 +49,6 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const polyaffine::SerialBlas same_sums_on_any_number_of_processors;
   try {
     const int status = run_program(argc, argv);
     if (!std::cout.flush()) throw polyaffine::ComputationError("cannot write to the standard output");

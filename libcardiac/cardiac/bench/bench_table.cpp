@@ -56,6 +56,35 @@ std::string markdown_row(const BenchRow& row) {
          cell(row.speedup_over_fem, 1) + " " + row.settings + " |\n";
 }
 
+// The fastest reduced model whose displacement error is no larger than that of a full-order one.
+const BenchRow* fastest_as_accurate(const std::vector<BenchRow>& rows, const BenchRow& full) {
+  const BenchRow* out = nullptr;
+  for (const BenchRow& row : rows)
+    if (row.method == "polyaffine" && row.converged &&
+        row.errors.displacement_percent <= full.errors.displacement_percent &&
+        (out == nullptr || row.solve_s < out->solve_s))
+      out = &row;
+  return out;
+}
+
+// A line for each quadratic mesh but the reference, which is the first row.
+std::string comparison(const std::vector<BenchRow>& rows) {
+  std::string out;
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    const BenchRow& full = rows[k];
+    if (full.method != "fem_p2" || !full.converged || full.beat) continue;
+    out += "\n- " + std::to_string(full.mesh_tets) + " quadratic tets, " +
+           display_text(full.errors.displacement_percent, 2) + " %: ";
+    const BenchRow* reduced = fastest_as_accurate(rows, full);
+    out += reduced == nullptr ? "no reduced model is as accurate"
+                              : "the fastest reduced model of no larger error (" + reduced->preset + ", " +
+                                    std::to_string(reduced->control_nodes) + " nodes, " +
+                                    display_text(reduced->errors.displacement_percent, 2) + " %) is " +
+                                    display_text(full.solve_s / reduced->solve_s, 1) + " times faster";
+  }
+  return out.empty() ? out : out + "\n";
+}
+
 }  // namespace
 
 std::string bench_csv(const std::vector<SceneResult>& results) {
@@ -85,6 +114,7 @@ std::string bench_markdown(const std::vector<SceneResult>& results) {
            "settings |\n"
            "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
     for (const BenchRow& row : r.rows) out += markdown_row(row);
+    out += comparison(r.rows);
     for (const BenchRow& row : r.rows)
       if (row.beat)
         out += "\n" + row.method + " " + row.preset + ": ejection fraction " +

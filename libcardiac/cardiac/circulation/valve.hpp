@@ -9,7 +9,7 @@ namespace cardiac {
 /// A valve (or a valve in series with a resistance): a resistance one way, closed the other, without a kink.
 struct Valve {
   double resistance_kPa_ms_per_mm3 = 0;
-  double smoothing_kPa = 0.05 * kPa_per_mmHg;  ///< ε, the pressure over which it opens and closes
+  double smoothing_kPa = 0.05 * kPa_per_mmHg;  ///< ε, the pressure over which it opens and closes from R₀ on
   double leak_kPa_ms_per_mm3 = std::numeric_limits<double>::infinity();  ///< resistance backwards
 };
 
@@ -27,8 +27,8 @@ struct ValveFlow {
 /// cancellation on both sides. R, R_leak and ε must be positive.
 ValveFlow valve_flow(const Valve& valve, double pressure_drop_kPa);
 
-/// Whether a valve counts as open: Δp > −10 ε, that is a flow above ε/(40R). The margin keeps a valve through
-/// which filling has come to rest (Δp → 0⁻) open until the pressure really turns.
+/// Whether a valve counts as open: Δp > −10 ε, that is a flow above ε/(40 max(R, R₀)). The margin keeps a
+/// valve through which filling has come to rest (Δp → 0⁻) open until the pressure really turns.
 bool is_open(const Valve& valve, double pressure_drop_kPa);
 
 }  // namespace cardiac

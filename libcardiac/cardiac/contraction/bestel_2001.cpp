@@ -29,10 +29,14 @@ void require_positive(double value, const char* name, const char* unit) {
 void check(const BestelParameters& p, double period_ms) {
   require_positive(p.activation_rate_per_ms, "activation rate", "1/ms");
   require_positive(p.relaxation_rate_per_ms, "relaxation rate", "1/ms");
-  if (p.contractility_kPa != 0) require_positive(p.contractility_kPa, "contractility", "kPa");
   require_positive(p.steepness_ms, "steepness", "ms");
   require_positive(period_ms, "heart period", "ms");
   std::ostringstream text;
+  if (!(p.contractility_kPa >= 0 && std::isfinite(p.contractility_kPa))) {
+    text << "contraction: contractility is " << p.contractility_kPa
+         << ", expected a number of at least 0 in kPa";
+    throw InputError(text.str());
+  }
   if (!(p.diastole_ms > p.systole_ms && p.diastole_ms < p.systole_ms + period_ms)) {
     text << "contraction: relaxation begins at " << p.diastole_ms << " ms, expected after contraction ("
          << p.systole_ms << " ms) and less than one heart period (" << period_ms << " ms) later";
@@ -66,11 +70,11 @@ std::vector<TensionCurve::Sample> integrate(const BestelParameters& p, double pe
     slope[0] = tension_rate(p, period_ms, time, tension[0]);
   };
   const Vector times = Vector::LinSpaced(intervals + 1, begin, begin + spacing * intervals);
-  const polyaffine::OdeSolution solution = polyaffine::solve_ode(
-      rate, begin, Vector::Constant(1, initial_tension), times,
-      {.relative_tolerance = 1e-10,
-       .absolute_tolerance = 1e-12 * (p.contractility_kPa > 0 ? p.contractility_kPa : 1),
-       .max_step = p.steepness_ms});
+  const polyaffine::OdeSolution solution =
+      polyaffine::solve_ode(rate, begin, Vector::Constant(1, initial_tension), times,
+                            {.relative_tolerance = 1e-10,
+                             .absolute_tolerance = 1e-12 * std::max(p.contractility_kPa, 1.0),
+                             .max_step = p.steepness_ms});
   if (!solution.finished()) throw polyaffine::ComputationError("contraction: " + solution.message);
 
   std::vector<TensionCurve::Sample> nodes(times.size());

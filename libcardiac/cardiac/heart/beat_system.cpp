@@ -123,22 +123,16 @@ bool BeatSystem::solve(const Vector& rhs, Vector& x) {
   Vector b(n + m);
   b << rhs.tail(n) - circulating_.values, rhs.segment(num_c_, m) + volume_gradient_.transpose() * w;
   CirculationModel::Rates flows = circulating_;
-  Vector loop = Vector::Zero(n + m);
-  const auto miss = [&] {
-    Vector r = b - A * loop;
-    r.head(n) = b.head(n) - alpha_ * loop.head(n) + flows.values;
-    return r;
-  };
-  Vector r = miss();
+  Vector loop = Vector::Zero(n + m), miss = b;
   for (int k = 0; k < kMaxLoopIterations; ++k) {
     A.topLeftCorner(n, n) = -flows.by_states;
     A.topLeftCorner(n, n).diagonal().array() += alpha_;
     A.topRightCorner(n, m) = -flows.by_pressures;
-    const Vector step = A.partialPivLu().solve(r);
+    miss << b.head(n) - alpha_ * loop.head(n) + flows.values, b.tail(m) - A.bottomRows(m) * loop;
+    const Vector step = A.partialPivLu().solve(miss);
     loop += step;
-    flows = circulation_->rates(circulating_states_ + loop.head(n), circulating_pressures_ + loop.tail(m));
-    r = miss();
     if (step.norm() <= kLoopTolerance * loop.norm()) break;
+    flows = circulation_->rates(circulating_states_ + loop.head(n), circulating_pressures_ + loop.tail(m));
   }
   x.resize(size());
   x << w + solved_gradient_ * loop.tail(m), loop.head(m), loop.tail(m), loop.segment(m, n - m);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -52,7 +53,7 @@ class ExtremeChecks {
   const ExtremeMesh& coarse_wall() const { return coarse_wall_; }
 
   /// Runs a protocol with settings key=value on a mesh; refusals and failures are part of the outcome. A run
-  /// of more than five minutes is stopped.
+  /// of more than two minutes is stopped.
   ExtremeOutcome run(const std::string& scene, const ExtremeMesh& mesh, const std::string& protocol,
                      const std::vector<std::string>& settings) const;
 
@@ -81,6 +82,11 @@ extern const char* const kExtremeBeat;
 
 /// "reduction.method=fem" in front of settings.
 std::vector<std::string> full_order(std::vector<std::string> settings);
+
+/// work(0), …, work(count − 1), begun in this order, as many at once as there are processors, each on a
+/// thread that does nothing else: times of scenes do not hold work of others. Then throws what the first of
+/// them threw.
+void side_by_side(std::size_t count, const std::function<void(std::size_t)>& work);
 
 /// The groups of scenes.
 void extreme_materials(ExtremeChecks& checks);

@@ -1,9 +1,7 @@
 #include <algorithm>
-#include <atomic>
 #include <numeric>
 #include <random>
 #include <sstream>
-#include <thread>
 
 #include <cardiac/validation/extreme_checks.hpp>
 
@@ -53,24 +51,15 @@ std::vector<std::string> draw(unsigned seed) {
   return out;
 }
 
-std::vector<ExtremeOutcome> run_all(const ExtremeChecks& checks, int count) {
-  std::vector<ExtremeOutcome> out(count);
-  std::atomic<int> next = 0;
-  const auto work = [&] {
-    for (int k = next++; k < count; k = next++)
-      out[k] = checks.run("random/" + std::to_string(k), checks.wall(), kExtremeBeat, draw(k));
-  };
-  std::vector<std::jthread> workers;
-  for (unsigned k = 0; k < std::max(1U, std::thread::hardware_concurrency()); ++k) workers.emplace_back(work);
-  workers.clear();
-  return out;
-}
-
 }  // namespace
 
 void extreme_random(ExtremeChecks& checks) {
   const int count = checks.quick() ? 20 : 1000;
-  const std::vector<ExtremeOutcome> outcomes = run_all(checks, count);
+  std::vector<ExtremeOutcome> outcomes(count);
+  side_by_side(outcomes.size(), [&](std::size_t k) {
+    outcomes[k] = checks.run("random/" + std::to_string(k), checks.wall(), kExtremeBeat,
+                             draw(static_cast<unsigned>(k)));
+  });
   std::vector<double> times;
   int completed = 0, told = 0;
   ExtremeOutcome all;

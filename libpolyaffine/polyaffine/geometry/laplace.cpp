@@ -4,6 +4,7 @@
 #include <Eigen/SparseCore>
 
 #include <polyaffine/core/error.hpp>
+#include <polyaffine/core/serial_blas.hpp>
 
 namespace polyaffine {
 namespace {
@@ -63,6 +64,7 @@ Vector solve_diffusion(const LagrangeBasis& basis, const WallPoints& points,
   }
   Eigen::SparseMatrix<double> A(num_free, num_free);
   A.setFromTriplets(entries.begin(), entries.end());
+  const SerialBlas serial;
   const Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Lower> solver(A);
   if (solver.info() != Eigen::Success) throw ComputationError("Laplace problem: the system is singular");
   const Vector x = solver.solve(rhs);

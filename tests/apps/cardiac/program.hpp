@@ -4,22 +4,15 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 
 #include "support/temporary_folder.hpp"
+#include "support/whole_file.hpp"
 
 struct ProgramRun {
   int status = -1;
   std::string out, err;
 };
-
-inline std::string whole_file(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
 
 /// Runs the program as a child; the arguments as a shell reads them.
 inline ProgramRun run_program(const std::string& arguments) {

@@ -86,6 +86,30 @@ TEST(BenchMarkdown, HasARowAModelAsWideAsItsHeader) {
   EXPECT_EQ(cells("| method"), cells("| polyaffine"));
 }
 
+TEST(BenchMarkdown, ComparesWithTheFastestReducedModelThatIsAsAccurate) {
+  auto results = two_rows();
+  auto& rows = results[0].rows;
+  BenchRow coarse = rows[0], finer = rows[0], slow = rows[1], enriched = rows[1];
+  coarse.mesh_tets = 168;
+  coarse.solve_s = 0.5;
+  coarse.errors.displacement_percent = 7;
+  finer.mesh_tets = 396;
+  finer.errors.displacement_percent = 2;
+  slow.control_nodes = 29;
+  slow.solve_s = 1;
+  slow.errors.displacement_percent = 3;
+  enriched.solve_s = 0.1;
+  enriched.errors.displacement_percent = 1;
+  enriched.converged = false;
+  rows.insert(rows.end(), {coarse, finer, slow, enriched});
+  const std::string text = bench_markdown(results);
+  EXPECT_THAT(text,
+              HasSubstr("- 168 quadratic tets, 7.00 %: the fastest reduced model of no larger error (fast, "
+                        "17 nodes, 6.50 %) is 2.0 times faster\n"));
+  EXPECT_THAT(text, HasSubstr("- 396 quadratic tets, 2.00 %: no reduced model is as accurate\n"));
+  EXPECT_THAT(text, Not(HasSubstr("- 2000 quadratic")));
+}
+
 TEST(BenchFigure, MarksModelsAndNotTheReference) {
   auto results = two_rows();
   EXPECT_THAT(bench_svg(results), Not(HasSubstr("Passive inflation")));  // one model makes no front

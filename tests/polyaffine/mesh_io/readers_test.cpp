@@ -7,11 +7,11 @@
 #include <polyaffine/mesh_io/label_fields.hpp>
 #include <polyaffine/mesh_io/read.hpp>
 #include <set>
-#include <sstream>
 
 #include "support/labelled_box.hpp"
 #include "support/mesh_writers.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/whole_file.hpp"
 
 namespace polyaffine {
 namespace {
@@ -116,10 +116,9 @@ TEST_P(VolumeReader, CutAnywhereIsAnError) {
 
 TEST_P(VolumeReader, GarbageIsAnErrorOrAMeshButNeverMore) {
   GetParam().write(file(), box());
-  std::ostringstream whole;
-  whole << std::ifstream(file(), std::ios::binary).rdbuf();
+  const std::string whole = whole_file(file());
   for (int i = 0; i < 60; ++i) {
-    std::string text = whole.str();
+    std::string text = whole;
     for (int k = 0; k < 8; ++k)
       text[(i * 7919U + k * 104729U) % text.size()] = static_cast<char>(i * 37 + k * 91);
     std::ofstream(file(), std::ios::binary) << text;
