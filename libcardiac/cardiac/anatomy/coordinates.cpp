@@ -143,11 +143,10 @@ void VentricularCoordinates::find_insertions(const polyaffine::TetMesh& mesh) {
     const Vec3 X = mesh.tet_centroid(t);
     const double h = long_axis_height(X);
     if (h < 1.0 / 3 || h > 1 || right_->border(t, centre).w > 0.5) continue;
-    const auto s = space_->sample(t, centre);
+    const auto s = space_->element_sample(t, centre);
     const Vec3 d = from_axis(X);
-    const double share = mesh.tet_volume(t) *
-                         std::abs(axis_.cross(d).dot(axis_.cross(s.gradient * t_(s.functions)))) /
-                         d.squaredNorm();
+    const double share =
+        mesh.tet_volume(t) * std::abs(axis_.cross(d).dot(axis_.cross(s.slope(t_)))) / d.squaredNorm();
     whole += share;
     if (right_->septal(t, centre) <= 0) continue;
     angle.push_back(plain_angle(X));
@@ -188,9 +187,9 @@ void VentricularCoordinates::solve_transmural(const polyaffine::TetMesh& mesh, c
   Vector steepness(points.weights.size());
   Vector left = points.weights;  // zero beyond the left wall and the septum
   for (Eigen::Index q = 0; q < steepness.size(); ++q) {
-    const auto s = space_->sample(points.tet[q], points.barycentric.col(q));
-    steepness[q] = (s.gradient * harmonic(s.functions)).norm();
-    if (right_ && s.N.dot(right_->transventricular()(s.functions)) > 0.5) left[q] = 0;
+    const auto s = space_->element_sample(points.tet[q], points.barycentric.col(q));
+    steepness[q] = s.slope(harmonic).norm();
+    if (right_ && s.value(right_->transventricular()) > 0.5) left[q] = 0;
   }
   if (right_) least_steepness_ = kOffWall * left.dot(steepness) / left.sum();
   t_ = polyaffine::solve_diffusion(
@@ -202,9 +201,9 @@ void VentricularCoordinates::solve_transmural(const polyaffine::TetMesh& mesh, c
       values);
   Points X(3, points.barycentric.cols()), gradient(3, X.cols());
   for (Eigen::Index q = 0; q < X.cols(); ++q) {
-    const auto s = space_->sample(points.tet[q], points.barycentric.col(q));
-    X.col(q) = space_->nodes()(Eigen::all, s.functions) * s.N;
-    gradient.col(q) = s.gradient * t_(s.functions);
+    const auto s = space_->element_sample(points.tet[q], points.barycentric.col(q));
+    X.col(q) = s.value(space_->nodes());
+    gradient.col(q) = s.slope(t_);
   }
   std::vector<Eigen::Index> inside;
   for (Eigen::Index q = 0; q < left.size(); ++q)
@@ -221,10 +220,10 @@ void VentricularCoordinates::solve_apicobasal(const polyaffine::TetMesh& mesh, c
       *space_, points,
       [&](std::size_t q) {
         const auto k = static_cast<Eigen::Index>(q);
-        const auto s = space_->sample(points.tet[q], points.barycentric.col(k));
-        const Vec3 d = from_axis(space_->nodes()(Eigen::all, s.functions) * s.N);
+        const auto s = space_->element_sample(points.tet[q], points.barycentric.col(k));
+        const Vec3 d = from_axis(s.value(space_->nodes()));
         const double r = d.norm();
-        const double steepness = std::max((s.gradient * t_(s.functions)).norm(), least_steepness_);
+        const double steepness = std::max(s.slope(t_).norm(), least_steepness_);
         return polyaffine::DiffusionPoint{steepness / r * Mat3::Identity(), r, d / r};
       },
       values);
@@ -234,23 +233,22 @@ void VentricularCoordinates::solve_apicobasal(const polyaffine::TetMesh& mesh, c
     rest_[n] = 1 - slope_[n] * from_axis(space_->nodes().col(n)).norm();
   for (const auto& [node, value] : values) rest_[node] = 0;
   double volume = 0, flux = 0;
-  for (std::size_t q = 0; q < points.tet.size(); ++q) {
-    const auto k = static_cast<Eigen::Index>(q);
-    const CoordinateSample at = sample(points.tet[q], points.barycentric.col(k));
+  for (int t = 0; t < mesh.num_tets(); ++t) {
+    const CoordinateSample at = sample(t, Vec4::Constant(0.25));
     if (at.w > 0.5) continue;
-    volume += points.weights[k];
-    flux += points.weights[k] * at.grad_u.norm();
+    volume += mesh.tet_volume(t);
+    flux += mesh.tet_volume(t) * at.grad_u.norm();
   }
   arc_length_ = volume / flux;
 }
 
 CoordinateSample VentricularCoordinates::sample(int tet, const Vec4& barycentric) const {
-  const auto s = space_->sample(tet, barycentric);
+  const auto s = space_->element_sample(tet, barycentric);
   CoordinateSample out;
-  out.t = s.N.dot(t_(s.functions));
-  out.grad_t = s.gradient * t_(s.functions);
+  out.t = s.value(t_);
+  out.grad_t = s.slope(t_);
 
-  const Vec3 X = space_->nodes()(Eigen::all, s.functions) * s.N;
+  const Vec3 X = s.value(space_->nodes());
   const Vec3 d = from_axis(X);
   const double r = std::max(d.norm(), 1e-6);
   const Vec3 away = d / r;
@@ -261,14 +259,14 @@ CoordinateSample VentricularCoordinates::sample(int tet, const Vec4& barycentric
     out.psi = std::remainder(psi, 2 * polyaffine::kPi);
     out.grad_psi *= slope;
   }
-  if (right_) out.w = s.N.dot(right_->transventricular()(s.functions));
+  if (right_) out.w = s.value(right_->transventricular());
 
-  const double g = s.N.dot(slope_(s.functions));
-  const double h = s.N.dot(rest_(s.functions));
-  const Vec3 grad_rg = r * (s.gradient * slope_(s.functions)) + g * away;
+  const double g = s.value(slope_);
+  const double h = s.value(rest_);
+  const Vec3 grad_rg = r * s.slope(slope_) + g * away;
   const double sum = r * g + h;
   out.u = r * g / sum;
-  out.grad_u = (h * grad_rg - r * g * (s.gradient * rest_(s.functions))) / (sum * sum);
+  out.grad_u = (h * grad_rg - r * g * s.slope(rest_)) / (sum * sum);
 
   const auto radial = radial_->sample(X);
   const Direction e_r = direction(radial.value, radial.gradient);

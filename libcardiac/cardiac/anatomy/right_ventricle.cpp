@@ -102,12 +102,13 @@ RightVentricularCoordinates::RightVentricularCoordinates(const polyaffine::TetMe
   for (auto* values : {&for_v, &for_t0}) prescribe(*values, right, 1);
   for (auto* values : {&for_q, &for_t0, &for_t}) prescribe(*values, epi, 1);
   prescribe(for_t, right, 0);
-  const Vector v = polyaffine::solve_laplace(*space_, for_v);
-  const Vector q = polyaffine::solve_laplace(*space_, for_q);
-  left_depth_ = polyaffine::solve_laplace(*space_, for_t0);
+  const polyaffine::DiffusionProblem laplace = polyaffine::laplace_problem(*space_);
+  const Vector v = laplace.solve(for_v);
+  const Vector q = laplace.solve(for_q);
+  left_depth_ = laplace.solve(for_t0);
   w_ = q + v - left_depth_;
   septal_ = v - q;
-  t_ = polyaffine::solve_laplace(*space_, for_t);
+  t_ = laplace.solve(for_t);
 }
 
 void RightVentricularCoordinates::settle(const polyaffine::TetMesh& mesh, const SurfaceLabels& labels,
@@ -136,12 +137,12 @@ void RightVentricularCoordinates::settle(const polyaffine::TetMesh& mesh, const 
 
 RightVentricularCoordinates::Border RightVentricularCoordinates::border(int tet,
                                                                         const Vec4& barycentric) const {
-  const auto s = space_->sample(tet, barycentric);
+  const auto s = space_->element_sample(tet, barycentric);
   Border out;
-  out.w = s.N.dot(w_(s.functions));
+  out.w = s.value(w_);
   const double x = std::clamp((out.w - kLeftEnd) / (kRightEnd - kLeftEnd), 0.0, 1.0);
   out.share = x * x * (3 - 2 * x);
-  out.share_gradient = 6 * x * (1 - x) / (kRightEnd - kLeftEnd) * (s.gradient * w_(s.functions));
+  out.share_gradient = 6 * x * (1 - x) / (kRightEnd - kLeftEnd) * s.slope(w_);
   return out;
 }
 
@@ -156,11 +157,11 @@ Vec3 RightVentricularCoordinates::from_axis(const Vec3& X) const {
 
 RightVentricularCoordinates::Sample RightVentricularCoordinates::sample(int tet,
                                                                         const Vec4& barycentric) const {
-  const auto s = space_->sample(tet, barycentric);
+  const auto s = space_->element_sample(tet, barycentric);
   Sample out;
-  out.t = s.N.dot(t_(s.functions));
-  out.grad_t = s.gradient * t_(s.functions);
-  const Vec3 d = from_axis(space_->nodes()(Eigen::all, s.functions) * s.N);
+  out.t = s.value(t_);
+  out.grad_t = s.slope(t_);
+  const Vec3 d = from_axis(s.value(space_->nodes()));
   const double r = std::max(d.norm(), 1e-6);
   const double angle = std::atan2(d.dot(outward_), d.dot(anterior_));
   out.psi = std::remainder(angle - middle_, 2 * kPi) / half_angle_;

@@ -1,76 +1,149 @@
 #include "polyaffine/geometry/laplace.hpp"
 
 #include <Eigen/CholmodSupport>
-#include <Eigen/SparseCore>
+#include <algorithm>
 
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/core/serial_blas.hpp>
+#include <polyaffine/solve/two_level.hpp>
 
 namespace polyaffine {
 namespace {
 
-Matrix element_matrix(const LagrangeBasis& basis, const WallPoints& points,
-                      const std::function<DiffusionPoint(std::size_t)>& at, std::size_t t) {
-  Matrix K = Matrix::Zero(basis.elements().rows(), basis.elements().rows());
+using Sparse = Eigen::SparseMatrix<double>;
+
+constexpr double kTolerance = 1e-12;  // of the residual, relative to the right-hand side
+constexpr int kMostIterations = 300;
+
+using ElementMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 10, 10>;
+
+ElementMatrix element_matrix(const LagrangeBasis& basis, const WallPoints& points,
+                             const std::function<DiffusionPoint(std::size_t)>& at, std::size_t t) {
+  const Eigen::Index n = basis.elements().rows();
+  ElementMatrix K = ElementMatrix::Zero(n, n);
   for (int q = points.starts[t]; q < points.starts[t + 1]; ++q) {
-    const BasisSample s = basis.sample(points.tet[q], points.barycentric.col(q));
+    const ElementSample s = basis.element_sample(points.tet[q], points.barycentric.col(q));
     const DiffusionPoint d = at(static_cast<std::size_t>(q));
-    const Points gradient = d.factor * s.gradient + d.factor_gradient * s.N.transpose();
-    K += points.weights[q] * gradient.transpose() * d.conductivity * gradient;
+    Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 10> gradient(3, n), flux(3, n);
+    for (Eigen::Index a = 0; a < n; ++a) {
+      gradient.col(a) = d.factor * s.gradient.col(a) + s.N[a] * d.factor_gradient;
+      flux.col(a) = points.weights[q] * (d.conductivity * gradient.col(a));
+    }
+    for (Eigen::Index b = 0; b < n; ++b)
+      for (Eigen::Index a = 0; a < n; ++a) K(a, b) += gradient.col(a).dot(flux.col(b));
   }
   return K;
 }
 
-DiffusionPoint plain(std::size_t) {
-  return {};
+Sparse assembled(const LagrangeBasis& basis, const WallPoints& points,
+                 const std::function<DiffusionPoint(std::size_t)>& at) {
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve((points.starts.size() - 1) *
+                  static_cast<std::size_t>(basis.elements().rows() * (basis.elements().rows() + 1) / 2));
+  for (std::size_t t = 0; t + 1 < points.starts.size(); ++t) {
+    const ElementMatrix K = element_matrix(basis, points, at, t);
+    const auto nodes = basis.elements().col(points.tet[points.starts[t]]);
+    for (Eigen::Index b = 0; b < nodes.size(); ++b)
+      for (Eigen::Index a = 0; a < nodes.size(); ++a)
+        if (nodes[a] >= nodes[b]) entries.emplace_back(nodes[a], nodes[b], K(a, b));
+  }
+  Sparse lower(basis.num_functions(), basis.num_functions());
+  lower.setFromTriplets(entries.begin(), entries.end());
+  return lower.selfadjointView<Eigen::Lower>();
+}
+
+// Values of the linear functions of the vertices at the nodes of a quadratic basis.
+Sparse linear_in_quadratic(const LagrangeBasis& basis) {
+  const auto& elements = basis.elements();
+  if (basis.order() == 1) return Sparse(basis.num_functions(), 0);
+  const Eigen::Matrix4Xd corners = basis.node_barycentric();
+  std::vector<char> done(basis.num_functions(), 0);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index t = 0; t < elements.cols(); ++t)
+    for (Eigen::Index k = 0; k < elements.rows(); ++k) {
+      if (done[elements(k, t)]++) continue;
+      for (int v = 0; v < 4; ++v)
+        if (corners(v, k) > 0) entries.emplace_back(elements(k, t), elements(v, t), corners(v, k));
+    }
+  Sparse out(basis.num_functions(), elements.topRows<4>().maxCoeff() + 1);
+  out.setFromTriplets(entries.begin(), entries.end());
+  return out;
+}
+
+// Rows and columns that are numbered, in their order.
+Sparse part(const Sparse& A, const std::vector<int>& row, const std::vector<int>& column) {
+  const auto count = [](const std::vector<int>& number) {
+    return std::ranges::count_if(number, [](int n) { return n >= 0; });
+  };
+  Sparse out(count(row), count(column));
+  out.reserve(A.nonZeros());
+  for (Eigen::Index c = 0; c < A.cols(); ++c) {
+    if (column[c] < 0) continue;
+    out.startVec(column[c]);
+    for (Sparse::InnerIterator it(A, c); it; ++it)
+      if (row[it.row()] >= 0) out.insertBack(row[it.row()], column[c]) = it.value();
+  }
+  out.finalize();
+  return out;
+}
+
+Vector factorised(const Sparse& A, const Vector& b) {
+  const SerialBlas serial;
+  const Eigen::CholmodSupernodalLLT<Sparse, Eigen::Lower> factors(A);
+  if (factors.info() != Eigen::Success) throw ComputationError("Laplace problem: the system is singular");
+  return factors.solve(b);
 }
 
 }  // namespace
 
-Vector solve_laplace(const LagrangeBasis& basis, const std::vector<NodeValue>& dirichlet) {
+DiffusionProblem::DiffusionProblem(const LagrangeBasis& basis, const WallPoints& points,
+                                   const std::function<DiffusionPoint(std::size_t)>& at)
+    : matrix_(assembled(basis, points, at)), interpolation_(linear_in_quadratic(basis)) {}
+
+Vector DiffusionProblem::solve(const std::vector<NodeValue>& dirichlet) const {
+  if (dirichlet.empty()) throw ComputationError("Laplace problem: no boundary value is given");
+  Vector solution = Vector::Zero(matrix_.rows());
+  std::vector<int> unknown(matrix_.rows(), 0);
+  for (const auto& [node, value] : dirichlet) {
+    unknown[node] = -1;
+    solution[node] = value;
+  }
+  int count = 0;
+  for (int& n : unknown)
+    if (n >= 0) n = count++;
+  if (count == 0) return solution;
+  std::vector<int> coarse(unknown.begin(), unknown.begin() + interpolation_.cols());
+  int vertices = 0;
+  for (int& n : coarse)
+    if (n >= 0) n = vertices++;
+
+  const Vector known = matrix_ * solution;
+  Vector rhs(count);
+  for (std::size_t n = 0; n < unknown.size(); ++n)
+    if (unknown[n] >= 0) rhs[unknown[n]] = -known[static_cast<Eigen::Index>(n)];
+  const Sparse A = part(matrix_, unknown, unknown);
+  std::optional<Vector> x;
+  if (vertices > 0)
+    x = solve_two_level(A, part(interpolation_, unknown, coarse), rhs, kTolerance, kMostIterations);
+  if (!x) x = factorised(A, rhs);
+  for (std::size_t n = 0; n < unknown.size(); ++n)
+    if (unknown[n] >= 0) solution[static_cast<Eigen::Index>(n)] = (*x)[unknown[n]];
+  return solution;
+}
+
+DiffusionProblem laplace_problem(const LagrangeBasis& basis) {
   // |∇N|² of quadratic functions on straight elements
-  return solve_diffusion(basis, basis.wall_points(2), plain, dirichlet);
+  return {basis, basis.wall_points(2), [](std::size_t) { return DiffusionPoint{}; }};
+}
+
+Vector solve_laplace(const LagrangeBasis& basis, const std::vector<NodeValue>& dirichlet) {
+  return laplace_problem(basis).solve(dirichlet);
 }
 
 Vector solve_diffusion(const LagrangeBasis& basis, const WallPoints& points,
                        const std::function<DiffusionPoint(std::size_t)>& at,
                        const std::vector<NodeValue>& dirichlet) {
-  const int n = basis.num_functions();
-  Vector solution = Vector::Zero(n);
-  std::vector<int> free_index(n, 0);
-  for (const auto& [node, value] : dirichlet) {
-    free_index[node] = -1;
-    solution[node] = value;
-  }
-  if (dirichlet.empty()) throw ComputationError("Laplace problem: no boundary value is given");
-  int num_free = 0;
-  for (int& f : free_index)
-    if (f >= 0) f = num_free++;
-
-  std::vector<Eigen::Triplet<double>> entries;
-  Vector rhs = Vector::Zero(num_free);
-  for (std::size_t t = 0; t + 1 < points.starts.size(); ++t) {
-    const Matrix K = element_matrix(basis, points, at, t);
-    const auto nodes = basis.elements().col(points.tet[points.starts[t]]);
-    for (Eigen::Index a = 0; a < nodes.size(); ++a) {
-      if (free_index[nodes[a]] < 0) continue;
-      for (Eigen::Index b = 0; b < nodes.size(); ++b) {
-        if (free_index[nodes[b]] < 0)
-          rhs[free_index[nodes[a]]] -= K(a, b) * solution[nodes[b]];
-        else if (free_index[nodes[b]] <= free_index[nodes[a]])
-          entries.emplace_back(free_index[nodes[a]], free_index[nodes[b]], K(a, b));
-      }
-    }
-  }
-  Eigen::SparseMatrix<double> A(num_free, num_free);
-  A.setFromTriplets(entries.begin(), entries.end());
-  const SerialBlas serial;
-  const Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Lower> solver(A);
-  if (solver.info() != Eigen::Success) throw ComputationError("Laplace problem: the system is singular");
-  const Vector x = solver.solve(rhs);
-  for (int i = 0; i < n; ++i)
-    if (free_index[i] >= 0) solution[i] = x[free_index[i]];
-  return solution;
+  return DiffusionProblem(basis, points, at).solve(dirichlet);
 }
 
 }  // namespace polyaffine

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/SparseCore>
 #include <functional>
 #include <vector>
 
@@ -27,10 +28,29 @@ struct DiffusionPoint {
   Vec3 factor_gradient = Vec3::Zero();
 };
 
-/// Nodal ψ such that f ψ solves ∇·(D ∇(f ψ)) = 0, with ψ given at some nodes and no flux elsewhere on the
-/// boundary. A factor takes out of the unknown what polynomials follow badly: f the distance from a line lets
-/// f ψ have a cone there. `at` is called with the index of a point of `points`, one block an element. Throws
-/// ComputationError when the system is singular.
+/// The linear system of ∇·(D ∇(f ψ)) = 0 for the nodal ψ, assembled once for any prescribed values. A factor
+/// takes out of the unknown what polynomials follow badly: f the distance from a line lets f ψ have a cone
+/// there.
+class DiffusionProblem {
+ public:
+  /// `at` is called with the index of a point of `points`, one block an element.
+  DiffusionProblem(const LagrangeBasis& basis, const WallPoints& points,
+                   const std::function<DiffusionPoint(std::size_t)>& at);
+
+  /// ψ given at some nodes and no flux elsewhere on the boundary. Throws ComputationError when no node is
+  /// given or the system is singular.
+  Vector solve(const std::vector<NodeValue>& dirichlet) const;
+
+ private:
+  Eigen::SparseMatrix<double> matrix_;
+  // From linear to quadratic functions; without columns for linear elements.
+  Eigen::SparseMatrix<double> interpolation_;
+};
+
+/// Δψ = 0 (D = 1, f = 1).
+DiffusionProblem laplace_problem(const LagrangeBasis& basis);
+
+/// One solution of a problem; see DiffusionProblem.
 Vector solve_diffusion(const LagrangeBasis& basis, const WallPoints& points,
                        const std::function<DiffusionPoint(std::size_t)>& at,
                        const std::vector<NodeValue>& dirichlet);

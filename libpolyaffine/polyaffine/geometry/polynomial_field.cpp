@@ -1,14 +1,28 @@
 #include "polyaffine/geometry/polynomial_field.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
 
 #include <polyaffine/core/error.hpp>
 
 namespace polyaffine {
+namespace {
+
+constexpr Eigen::Index kBlock = 256;  // points summed at a time
+
+constexpr int count_of(int degree) {
+  return (degree + 1) * (degree + 2) * (degree + 3) / 6;
+}
+
+}  // namespace
 
 PolynomialField::PolynomialField(const Points& X, const Matrix& values, const Vector& weights, int degree)
     : degree_(degree) {
-  const int n = (degree + 1) * (degree + 2) * (degree + 3) / 6;
+  if (degree < 0 || degree > kMostDegree)
+    throw InputError("polynomial: found the degree " + std::to_string(degree) + ", expected 0 to " +
+                     std::to_string(kMostDegree));
+  const int n = count_of(degree);
   if (values.cols() != X.cols() || weights.size() != X.cols() || X.cols() < n)
     throw InputError("polynomial of degree " + std::to_string(degree) + ": found " +
                      std::to_string(X.cols()) + " points, " + std::to_string(values.cols()) + " values and " +
@@ -21,12 +35,14 @@ PolynomialField::PolynomialField(const Points& X, const Matrix& values, const Ve
   if (!(half_.minCoeff() > 0)) throw InputError("polynomial: found points without extent in space");
   Matrix A = Matrix::Zero(n, n);
   Matrix rhs = Matrix::Zero(n, values.rows());
-  Vector P;
-  Eigen::MatrixX3d gradient;
-  for (Eigen::Index q = 0; q < X.cols(); ++q) {
-    functions(X.col(q), P, gradient);
-    A.selfadjointView<Eigen::Lower>().rankUpdate(P, weights[q]);
-    rhs += weights[q] * P * values.col(q).transpose();
+  Matrix block(n, kBlock);
+  for (Eigen::Index first = 0; first < X.cols(); first += kBlock) {
+    const Eigen::Index count = std::min(kBlock, X.cols() - first);
+    for (Eigen::Index k = 0; k < count; ++k) block.col(k) = functions(X.col(first + k)).P;
+    const auto P = block.leftCols(count);
+    const Matrix weighted = P * weights.segment(first, count).asDiagonal();
+    A.noalias() += weighted * P.transpose();
+    rhs.noalias() += weighted * values.middleCols(first, count).transpose();
   }
   // In a thin wall high degrees depend on each other; this holds their combinations that the wall does not
   // see.
@@ -34,36 +50,35 @@ PolynomialField::PolynomialField(const Points& X, const Matrix& values, const Ve
   coefficients_ = Eigen::LDLT<Matrix>(A).solve(rhs).transpose();
 }
 
-void PolynomialField::functions(const Vec3& X, Vector& P, Eigen::MatrixX3d& gradient) const {
+PolynomialField::Functions PolynomialField::functions(const Vec3& X) const {
   const Vec3 x = (X - centre_).cwiseQuotient(half_);
-  Eigen::MatrixX3d L(degree_ + 1, 3), slope(degree_ + 1, 3);
+  std::array<std::array<double, kMostDegree + 1>, 3> L, slope;
   for (int k = 0; k < 3; ++k) {
-    L(0, k) = 1;
-    slope(0, k) = 0;
+    L[k][0] = 1;
+    slope[k][0] = 0;
     for (int n = 0; n < degree_; ++n) {
-      L(n + 1, k) = ((2 * n + 1) * x[k] * L(n, k) - (n > 0 ? n * L(n - 1, k) : 0)) / (n + 1);
-      slope(n + 1, k) = (n > 0 ? slope(n - 1, k) : 0) + (2 * n + 1) * L(n, k) / half_[k];
+      L[k][n + 1] = ((2 * n + 1) * x[k] * L[k][n] - (n > 0 ? n * L[k][n - 1] : 0)) / (n + 1);
+      slope[k][n + 1] = (n > 0 ? slope[k][n - 1] : 0) + (2 * n + 1) * L[k][n] / half_[k];
     }
   }
-  const int count = (degree_ + 1) * (degree_ + 2) * (degree_ + 3) / 6;
-  P.resize(count);
-  gradient.resize(count, 3);
+  Functions out;
+  out.P.resize(count_of(degree_));
+  out.gradient.resize(count_of(degree_), 3);
   int m = 0;
   for (int i = 0; i <= degree_; ++i)
     for (int j = 0; i + j <= degree_; ++j)
       for (int k = 0; i + j + k <= degree_; ++k, ++m) {
-        P[m] = L(i, 0) * L(j, 1) * L(k, 2);
-        gradient(m, 0) = slope(i, 0) * L(j, 1) * L(k, 2);
-        gradient(m, 1) = L(i, 0) * slope(j, 1) * L(k, 2);
-        gradient(m, 2) = L(i, 0) * L(j, 1) * slope(k, 2);
+        out.P[m] = L[0][i] * L[1][j] * L[2][k];
+        out.gradient(m, 0) = slope[0][i] * L[1][j] * L[2][k];
+        out.gradient(m, 1) = L[0][i] * slope[1][j] * L[2][k];
+        out.gradient(m, 2) = L[0][i] * L[1][j] * slope[2][k];
       }
+  return out;
 }
 
 PolynomialField::Sample PolynomialField::sample(const Vec3& X) const {
-  Vector P;
-  Eigen::MatrixX3d gradient;
-  functions(X, P, gradient);
-  return {coefficients_ * P, coefficients_ * gradient};
+  const Functions f = functions(X);
+  return {coefficients_ * f.P, coefficients_ * f.gradient};
 }
 
 }  // namespace polyaffine

@@ -9,8 +9,10 @@ namespace polyaffine {
 /// what varies over the region and drops the noise of a mesh, and its gradient is exact.
 class PolynomialField {
  public:
-  /// X (3 × points, mm), values (components × points), weights ≥ 0. Throws InputError when the sizes differ,
-  /// there are fewer points than functions, or the points have no extent along x, y or z.
+  static constexpr int kMostDegree = 8;
+  /// X (3 × points, mm), values (components × points), weights ≥ 0, 0 ≤ degree ≤ kMostDegree. Throws
+  /// InputError when the sizes differ, there are fewer points than functions, or the points have no extent
+  /// along x, y or z.
   PolynomialField(const Points& X, const Matrix& values, const Vector& weights, int degree);
 
   struct Sample {
@@ -21,7 +23,12 @@ class PolynomialField {
   int num_functions() const { return static_cast<int>(coefficients_.cols()); }
 
  private:
-  void functions(const Vec3& X, Vector& P, Eigen::MatrixX3d& gradient) const;
+  static constexpr int kMost = (kMostDegree + 1) * (kMostDegree + 2) * (kMostDegree + 3) / 6;
+  struct Functions {
+    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMost, 1> P;
+    Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kMost, 3> gradient;
+  };
+  Functions functions(const Vec3& X) const;
 
   int degree_;
   Vec3 centre_, half_;

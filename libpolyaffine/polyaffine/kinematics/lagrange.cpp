@@ -3,7 +3,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
-#include <map>
+#include <cstdint>
+#include <unordered_map>
 
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/quadrature/gauss.hpp>
@@ -27,19 +28,29 @@ LagrangeBasis::LagrangeBasis(const TetMesh& mesh, int order, const EdgeMidpoints
     throw InputError("element order: found " + std::to_string(order) + ", expected 1 or 2");
   if (order == 1) return;
 
-  std::map<std::pair<int, int>, int> edges;
+  // Numbered as they are met.
+  const auto key_of = [](int a, int b) {
+    return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint32_t>(std::max(a, b));
+  };
+  std::unordered_map<std::uint64_t, int> edges;
+  edges.reserve(static_cast<std::size_t>(mesh.num_tets()) * 3 / 2);
   elements_.conservativeResize(10, Eigen::NoChange);
   for (int t = 0; t < mesh.num_tets(); ++t)
     for (int e = 0; e < 6; ++e) {
-      const auto key = std::minmax(mesh.tets()(kEdges[e][0], t), mesh.tets()(kEdges[e][1], t));
+      const auto key = key_of(mesh.tets()(kEdges[e][0], t), mesh.tets()(kEdges[e][1], t));
       elements_(4 + e, t) =
           edges.try_emplace(key, mesh.num_points() + static_cast<int>(edges.size())).first->second;
     }
   nodes_.conservativeResize(Eigen::NoChange, mesh.num_points() + static_cast<Eigen::Index>(edges.size()));
-  for (const auto& [ends, node] : edges)
-    nodes_.col(node) = 0.5 * (mesh.points().col(ends.first) + mesh.points().col(ends.second));
+  const auto straighten = [&](int t) {
+    for (int e = 0; e < 6; ++e)
+      nodes_.col(elements_(4 + e, t)) =
+          0.5 * (nodes_.col(elements_(kEdges[e][0], t)) + nodes_.col(elements_(kEdges[e][1], t)));
+  };
+  for (int t = 0; t < mesh.num_tets(); ++t) straighten(t);
   for (const auto& [ends, point] : midpoints)
-    if (const auto edge = edges.find(ends); edge != edges.end()) nodes_.col(edge->second) = point;
+    if (const auto edge = edges.find(key_of(ends.first, ends.second)); edge != edges.end())
+      nodes_.col(edge->second) = point;
 
   // Straightening one element bends its neighbours back, so that a few passes may be needed.
   for (bool changed = !midpoints.empty(); changed;) {
@@ -47,9 +58,7 @@ LagrangeBasis::LagrangeBasis(const TetMesh& mesh, int order, const EdgeMidpoints
     for (int t = 0; t < mesh.num_tets(); ++t) {
       if (!turned_over(t)) continue;
       changed = true;
-      for (int e = 0; e < 6; ++e)
-        nodes_.col(elements_(4 + e, t)) =
-            0.5 * (nodes_.col(elements_(kEdges[e][0], t)) + nodes_.col(elements_(kEdges[e][1], t)));
+      straighten(t);
     }
   }
 }
@@ -69,43 +78,61 @@ Eigen::Matrix4Xd LagrangeBasis::node_barycentric() const {
   return out;
 }
 
-void LagrangeBasis::shape(const Vec4& l, Vector& N, Eigen::MatrixX4d& derivative) const {
+LagrangeBasis::Shape LagrangeBasis::shape(const Vec4& l) const {
+  Shape out;
   if (order_ == 1) {
-    N = l;
-    derivative.setIdentity(4, 4);
-    return;
+    out.N = l;
+    out.derivative.setIdentity(4, 4);
+    return out;
   }
-  N.resize(10);
-  derivative.setZero(10, 4);
+  out.N.resize(10);
+  out.derivative.setZero(4, 10);
   for (int k = 0; k < 4; ++k) {
-    N[k] = l[k] * (2 * l[k] - 1);
-    derivative(k, k) = 4 * l[k] - 1;
+    out.N[k] = l[k] * (2 * l[k] - 1);
+    out.derivative(k, k) = 4 * l[k] - 1;
   }
   for (int e = 0; e < 6; ++e) {
     const auto [a, b] = kEdges[e];
-    N[4 + e] = 4 * l[a] * l[b];
-    derivative(4 + e, a) = 4 * l[b];
-    derivative(4 + e, b) = 4 * l[a];
+    out.N[4 + e] = 4 * l[a] * l[b];
+    out.derivative(a, 4 + e) = 4 * l[b];
+    out.derivative(b, 4 + e) = 4 * l[a];
   }
+  return out;
 }
 
-namespace {
-
-Mat3 jacobian_of(const Points& nodes, const Eigen::MatrixXi& elements, int tet,
-                 const Eigen::MatrixX4d& derivative) {
-  Eigen::Matrix<double, 3, 4> by_barycentric = Eigen::Matrix<double, 3, 4>::Zero();
-  for (Eigen::Index k = 0; k < elements.rows(); ++k)
-    by_barycentric += nodes.col(elements(k, tet)) * derivative.row(k);
-  return by_barycentric.rightCols<3>().colwise() - by_barycentric.col(0);
+Eigen::Matrix<double, 3, 4> LagrangeBasis::tangents(int tet, const Shape& shape) const {
+  Eigen::Matrix<double, 3, 4> out = Eigen::Matrix<double, 3, 4>::Zero();
+  for (Eigen::Index k = 0; k < elements_.rows(); ++k) {
+    const Vec3 x = nodes_.col(elements_(k, tet));
+    const Vec4 d = shape.derivative.col(k);
+    for (int j = 0; j < 4; ++j) out.col(j) += d[j] * x;
+  }
+  return out;
 }
 
-}  // namespace
+double ElementSample::value(const Vector& nodal) const {
+  double out = 0;
+  for (Eigen::Index a = 0; a < N.size(); ++a) out += N[a] * nodal[functions[a]];
+  return out;
+}
+
+Vec3 ElementSample::slope(const Vector& nodal) const {
+  Vec3 out = Vec3::Zero();
+  for (Eigen::Index a = 0; a < N.size(); ++a) out += nodal[functions[a]] * gradient.col(a);
+  return out;
+}
+
+Vec3 ElementSample::value(const Points& nodal) const {
+  Vec3 out = Vec3::Zero();
+  for (Eigen::Index a = 0; a < N.size(); ++a) out += N[a] * nodal.col(functions[a]);
+  return out;
+}
 
 Vec3 LagrangeBasis::position(int tet, const Vec4& barycentric) const {
-  Vector N;
-  Eigen::MatrixX4d derivative;
-  shape(barycentric, N, derivative);
-  return nodes_(Eigen::all, elements_.col(tet)) * N;
+  const Shape s = shape(barycentric);
+  Vec3 out = Vec3::Zero();
+  for (Eigen::Index k = 0; k < elements_.rows(); ++k) out += s.N[k] * nodes_.col(elements_(k, tet));
+  return out;
 }
 
 Points LagrangeBasis::positions(const std::vector<int>& tet, const Eigen::Matrix4Xd& barycentric) const {
@@ -115,27 +142,42 @@ Points LagrangeBasis::positions(const std::vector<int>& tet, const Eigen::Matrix
 }
 
 Mat3 LagrangeBasis::jacobian(int tet, const Vec4& barycentric) const {
-  Vector N;
-  Eigen::MatrixX4d derivative;
-  shape(barycentric, N, derivative);
-  return jacobian_of(nodes_, elements_, tet, derivative);
+  const auto by_barycentric = tangents(tet, shape(barycentric));
+  return by_barycentric.rightCols<3>().colwise() - by_barycentric.col(0);
 }
 
 double LagrangeBasis::interpolate(const Vector& nodal, int tet, const Vec4& barycentric) const {
-  Vector N;
-  Eigen::MatrixX4d derivative;
-  shape(barycentric, N, derivative);
-  return N.dot(nodal(elements_.col(tet)));
+  const Shape s = shape(barycentric);
+  double out = 0;
+  for (Eigen::Index k = 0; k < elements_.rows(); ++k) out += s.N[k] * nodal[elements_(k, tet)];
+  return out;
+}
+
+ElementSample LagrangeBasis::element_sample(int tet, const Vec4& barycentric) const {
+  const Shape s = shape(barycentric);
+  const auto by_barycentric = tangents(tet, s);
+  const Mat3 jacobian = by_barycentric.rightCols<3>().colwise() - by_barycentric.col(0);
+  // ∇l_k, a row each; the first one follows from Σ l = 1.
+  Eigen::Matrix<double, 4, 3> by_X;
+  by_X.bottomRows<3>() = jacobian.inverse();
+  by_X.row(0) = -by_X.bottomRows<3>().colwise().sum();
+  ElementSample out;
+  out.functions = elements_.col(tet);
+  out.N = s.N;
+  out.gradient.resize(3, s.N.size());
+  for (Eigen::Index a = 0; a < s.N.size(); ++a) {
+    const Vec4 d = s.derivative.col(a);
+    out.gradient.col(a) = by_X.transpose() * d;
+  }
+  return out;
 }
 
 BasisSample LagrangeBasis::sample(int tet, const Vec4& barycentric) const {
+  const ElementSample s = element_sample(tet, barycentric);
   BasisSample out;
-  Eigen::MatrixX4d derivative;
-  shape(barycentric, out.N, derivative);
-  const Mat3 inverse = jacobian_of(nodes_, elements_, tet, derivative).inverse();
-  const Eigen::MatrixX3d by_xi = derivative.rightCols<3>().colwise() - derivative.col(0);
-  out.gradient = (by_xi * inverse).transpose();
-  out.functions.assign(elements_.col(tet).begin(), elements_.col(tet).end());
+  out.functions.assign(s.functions.begin(), s.functions.end());
+  out.N = s.N;
+  out.gradient = s.gradient;
   return out;
 }
 
@@ -145,22 +187,21 @@ WallPoints LagrangeBasis::wall_points(int degree) const {
 
 WallPoints LagrangeBasis::wall_points(const std::function<TetRule(int)>& rule) const {
   const auto elements = static_cast<int>(elements_.cols());
-  std::vector<TetRule> rules;
+  std::vector<double> barycentric, weights;
   WallPoints out;
   out.starts.push_back(0);
   for (int t = 0; t < elements; ++t) {
-    rules.push_back(rule(t));
-    out.tet.insert(out.tet.end(), rules.back().weights.size(), t);
+    const TetRule points = rule(t);
+    for (Eigen::Index k = 0; k < points.weights.size(); ++k) {
+      const Vec4 l = points.barycentric.col(k);
+      barycentric.insert(barycentric.end(), l.begin(), l.end());
+      weights.push_back(points.weights[k] * jacobian(t, l).determinant() / 6);
+      out.tet.push_back(t);
+    }
     out.starts.push_back(static_cast<int>(out.tet.size()));
   }
-  out.barycentric.resize(4, out.starts.back());
-  out.weights.resize(out.starts.back());
-  for (int t = 0; t < elements; ++t)
-    for (Eigen::Index k = 0; k < rules[t].weights.size(); ++k) {
-      const Eigen::Index q = out.starts[t] + k;
-      out.barycentric.col(q) = rules[t].barycentric.col(k);
-      out.weights[q] = rules[t].weights[k] * jacobian(t, out.barycentric.col(q)).determinant() / 6;
-    }
+  out.barycentric = Eigen::Map<const Eigen::Matrix4Xd>(barycentric.data(), 4, out.starts.back());
+  out.weights = Eigen::Map<const Vector>(weights.data(), out.starts.back());
   return out;
 }
 
@@ -190,16 +231,8 @@ SurfacePoints LagrangeBasis::surface_points(
     const TriangleRule rule = rule_of(tet, corners);
     for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
       const Vec4 l = corners * rule.barycentric.col(q);
-      Vector N;
-      Eigen::MatrixX4d derivative;
-      shape(l, N, derivative);
-      Vec3 X = Vec3::Zero();
-      Eigen::Matrix<double, 3, 4> tangent = Eigen::Matrix<double, 3, 4>::Zero();
-      for (Eigen::Index k = 0; k < elements_.rows(); ++k) {
-        X += N[k] * nodes_.col(elements_(k, tet));
-        tangent += nodes_.col(elements_(k, tet)) * derivative.row(k);
-      }
-      frames.push_back({X, tangent.col(corner[1]) - tangent.col(corner[0]),
+      const auto tangent = tangents(tet, shape(l));
+      frames.push_back({position(tet, l), tangent.col(corner[1]) - tangent.col(corner[0]),
                         tangent.col(corner[2]) - tangent.col(corner[0])});
       weights.push_back(rule.weights[q] / 2);
       barycentric.push_back(l);

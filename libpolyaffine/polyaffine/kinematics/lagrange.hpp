@@ -10,6 +10,18 @@
 
 namespace polyaffine {
 
+/// The functions of one linear or quadratic element at a point; without memory of its own on the heap.
+struct ElementSample {
+  Eigen::Matrix<int, Eigen::Dynamic, 1, 0, 10, 1> functions;
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 10, 1> N;
+  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 10> gradient;  ///< ∇N_a, 1/mm
+
+  /// Value and gradient (1/mm) of a scalar field given at the nodes, value of a vector field.
+  double value(const Vector& nodal) const;
+  Vec3 slope(const Vector& nodal) const;
+  Vec3 value(const Points& nodal) const;
+};
+
 /// Linear (4-node) or quadratic (10-node) isoparametric tetrahedra. Quadratic nodes follow the vertices of
 /// the mesh: one at the middle of each edge, in an element in the order 01, 12, 02, 03, 13, 23 (that of VTK).
 class LagrangeBasis : public Basis {
@@ -24,11 +36,10 @@ class LagrangeBasis : public Basis {
 
   int num_functions() const override { return static_cast<int>(nodes_.cols()); }
   BasisSample sample(int tet, const Vec4& barycentric) const override;
+  ElementSample element_sample(int tet, const Vec4& barycentric) const;
 
   /// Barycentric coordinates of an element's nodes, 4 × (4 or 10).
   Eigen::Matrix4Xd node_barycentric() const;
-  /// Values of the element's shape functions and their derivatives by the barycentric coordinates (n × 4).
-  void shape(const Vec4& barycentric, Vector& N, Eigen::MatrixX4d& derivative) const;
   /// X = Σ N_a x_a, mm.
   Vec3 position(int tet, const Vec4& barycentric) const;
   Points positions(const std::vector<int>& tet, const Eigen::Matrix4Xd& barycentric) const;
@@ -53,6 +64,15 @@ class LagrangeBasis : public Basis {
   std::vector<int> surface_nodes(const TetMesh& mesh, const std::vector<int>& labels) const;
 
  private:
+  // Values of an element's functions and their derivatives by the barycentric coordinates, function by
+  // column.
+  struct Shape {
+    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 10, 1> N;
+    Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, 10> derivative;
+  };
+  Shape shape(const Vec4& barycentric) const;
+  // ∂X/∂l, a column a barycentric coordinate.
+  Eigen::Matrix<double, 3, 4> tangents(int tet, const Shape& shape) const;
   bool turned_over(int tet) const;
 
   int order_;
