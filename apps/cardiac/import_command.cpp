@@ -29,6 +29,7 @@ struct ImportOptions {
   std::filesystem::path file, out;
   std::string length_unit;
   LabelOptions labels;
+  FibreArrays fibres;
   std::optional<double> size_mm;
   bool all_fields = false;
 };
@@ -53,6 +54,7 @@ HeartMesh read(const ImportOptions& o) {
   options.label_array = o.labels.label_array;
   options.labels = {surface_labels(o.labels.endo), surface_labels(o.labels.epi),
                     surface_labels(o.labels.base), surface_labels(o.labels.rv_endo)};
+  options.fibre_arrays = o.fibres;
   options.all_fields = o.all_fields;
   if (is_surface_file(o.file)) {
     if (!o.labels.surface_file.empty())
@@ -83,7 +85,8 @@ void import(const ImportOptions& o) {
   for (const std::string& text : heart.warnings) warnings.push_back(o.file.string() + ": " + text);
   print_warnings(warnings);
   std::cout << "read                 " << o.file.string() << '\n';
-  for (const std::string& note : heart.file.notes) std::cout << "                     " << note << '\n';
+  for (const auto* notes : {&heart.fibres, &heart.file.notes})
+    for (const std::string& note : *notes) std::cout << "                     " << note << '\n';
   print_report(heart.file.mesh);
   std::cout << "written              " << o.out.string() << " (mm)\n";
 }
@@ -103,6 +106,7 @@ void add_import_command(CLI::App& mesh) {
       ->required();
   command->add_option("--out", o->out, "file to write, .vtu, lengths in mm")->required();
   add_label_options(*command, o->labels);
+  add_fibre_options(*command, o->fibres);
   command->add_option("--size", o->size_mm,
                       "edge length inside a closed surface, mm (default: half the wall)");
   command->add_flag("--keep-fields", o->all_fields, "keep every numeric array, not only fibres");

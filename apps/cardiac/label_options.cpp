@@ -17,4 +17,11 @@ void add_label_options(CLI::App& command, LabelOptions& options) {
   add("--rv-endo-label", options.rv_endo, "right endocardium");
 }
 
+void add_fibre_options(CLI::App& command, FibreArrays& arrays) {
+  command.add_option("--fibre-array", arrays.fibre,
+                     "array with the fibre directions (default: fibre, fiber, f0, …)");
+  command.add_option("--sheet-array", arrays.sheet,
+                     "array with the sheet directions (default: sheet, s0, sheet_normal, …)");
+}
+
 }  // namespace cardiac::app

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <cardiac/anatomy/fibre_fields.hpp>
+
 namespace cardiac::app {
 
 /// Where a command finds the labels of surfaces: words of its command line.
@@ -15,5 +17,8 @@ struct LabelOptions {
 /// --surface-file, --label-array, --endo-label, --epi-label, --base-label, --rv-endo-label. The options must
 /// outlive the parsing.
 void add_label_options(CLI::App& command, LabelOptions& options);
+
+/// --fibre-array, --sheet-array; as add_label_options.
+void add_fibre_options(CLI::App& command, FibreArrays& arrays);
 
 }  // namespace cardiac::app

@@ -1,7 +1,9 @@
 #include "load_mesh.hpp"
 
-#include <utility>
+#include <cmath>
+#include <memory>
 
+#include <cardiac/fibres/file_fibres.hpp>
 #include <polyaffine/core/error.hpp>
 
 #include "biventricle_mesh.hpp"
@@ -11,23 +13,32 @@
 namespace cardiac::app {
 namespace {
 
-HeartMeshOptions options_of(const protocol::Mesh& mesh) {
+// Share of tets in which fibres may be far apart without a word: about the apex all directions meet.
+constexpr double kAmbiguous = 0.05;
+
+HeartMeshOptions options_of(const Protocol& protocol) {
+  const protocol::Mesh& mesh = protocol.mesh;
   HeartMeshOptions options;
   options.mm_per_unit = mm_per_unit(*mesh.length_unit);
   options.label_array = mesh.label_array.value_or("");
   options.labels = {mesh.endo_label.value_or(protocol::Labels{}), mesh.epi_label.value_or(protocol::Labels{}),
                     mesh.base_label.value_or(protocol::Labels{}),
                     mesh.rv_endo_label.value_or(protocol::Labels{})};
+  if (protocol.fibres && protocol.fibres->source == protocol::FibreSource::file) {
+    options.fibre_arrays = {protocol.fibres->fibre_array.value_or(""),
+                            protocol.fibres->sheet_array.value_or("")};
+    options.all_fields = true;  // what there is, a message about missing fibres names
+  }
   return options;
 }
 
-polyaffine::TetMesh read(const Protocol& protocol, std::vector<std::string>& warnings) {
+HeartMesh read(const Protocol& protocol, std::vector<std::string>& warnings) {
   HeartMesh heart = read_heart(mesh_path(protocol),
                                protocol.mesh.surface_file ? surface_path(protocol) : std::filesystem::path(),
-                               options_of(protocol.mesh));
+                               options_of(protocol));
   for (const auto& list : {heart.warnings, heart.file.notes})
     for (const std::string& text : list) warnings.push_back(mesh_path(protocol).string() + ": " + text);
-  return std::move(heart.file.mesh);
+  return heart;
 }
 
 polyaffine::TetMesh generate(const Protocol& protocol) {
@@ -42,14 +53,39 @@ polyaffine::TetMesh generate(const Protocol& protocol) {
 
 }  // namespace
 
-Anatomy load_anatomy(const Protocol& protocol, std::vector<std::string>& warnings) {
-  if (protocol.mesh.shape) return build_anatomy(generate(protocol), protocol);
-  polyaffine::TetMesh mesh = read(protocol, warnings);
+HeartMesh load_heart(const Protocol& protocol, std::vector<std::string>& warnings) {
+  if (!protocol.mesh.shape) return read(protocol, warnings);
+  HeartMesh heart;
+  heart.file.mesh = generate(protocol);
+  return heart;
+}
+
+Anatomy anatomy_of(const HeartMesh& heart, const Protocol& protocol) {
+  if (protocol.mesh.shape) return build_anatomy(heart.file.mesh, protocol);
   try {
-    return build_anatomy(std::move(mesh), protocol);
+    return build_anatomy(heart.file.mesh, protocol);
   } catch (const polyaffine::InputError& error) {
     throw polyaffine::InputError(mesh_path(protocol).string() + ": " + error.what());
   }
+}
+
+Anatomy load_anatomy(const Protocol& protocol, std::vector<std::string>& warnings) {
+  const HeartMesh heart = load_heart(protocol, warnings);
+  Anatomy anatomy = anatomy_of(heart, protocol);
+  if (!protocol.fibres) return anatomy;
+  if (protocol.fibres->source == protocol::FibreSource::file) {
+    const auto fibres = std::make_shared<const FileFibres>(heart.file, mesh_path(protocol).string());
+    if (const double share = fibres->ambiguous_share(); share > kAmbiguous)
+      warnings.push_back(
+          mesh_path(protocol).string() + ": in " + std::to_string(std::lround(100 * share)) +
+          " % of the tets its fibres of points are more than 40° apart: taken to turn by way of "
+          "the circumferential direction; a finer mesh or fibres of tets say for sure");
+    anatomy.fibres = [fibres](const auto&... at) { return fibres->at(at...); };
+  } else if (has_fibres(heart.file)) {
+    warnings.push_back(mesh_path(protocol).string() +
+                       ": its fibres are not used: fibres.source is rule, expected file for them");
+  }
+  return anatomy;
 }
 
 }  // namespace cardiac::app

@@ -1,6 +1,5 @@
 #include "run_files.hpp"
 
-#include <cardiac/fibres/helix.hpp>
 #include <polyaffine/core/error.hpp>
 
 #include "vertex_displacement.hpp"
@@ -13,20 +12,9 @@ namespace cardiac::app {
 
 using polyaffine::Matrix;
 using polyaffine::Points;
-using polyaffine::Vec4;
 
 #ifdef CARDIAC_WITH_VTK
 namespace {
-
-Matrix tet_fibres(const Ventricle& ventricle, const protocol::Fibres& fibres) {
-  const HelixAngles angles = helix_angles(fibres);
-  Matrix out(3, ventricle.anatomy->mesh.num_tets());
-  for (Eigen::Index t = 0; t < out.cols(); ++t)
-    out.col(t) =
-        wall_fibres(*ventricle.anatomy->coordinates, static_cast<int>(t), Vec4::Constant(0.25), angles)
-            .col(0);
-  return out;
-}
 
 std::string frame_name(std::size_t k) {
   const std::string number = std::to_string(k);
@@ -43,7 +31,7 @@ void write_mesh_series(const Ventricle& ventricle, const Protocol& protocol, con
   polyaffine::WriteFields fields;
   fields.cell_fields["segment"] = Matrix(1, tets);
   for (Eigen::Index t = 0; t < tets; ++t) fields.cell_fields["segment"](0, t) = anatomy.segment[t];
-  if (protocol.fibres) fields.cell_fields["fibre"] = tet_fibres(ventricle, *protocol.fibres);
+  if (protocol.fibres) fields.cell_fields["fibre"] = tet_fibres(anatomy, *protocol.fibres);
   if (ventricle.contraction) {
     fields.cell_fields["activation_ms"] = Matrix(1, tets);
     for (Eigen::Index t = 0; t < tets; ++t)

@@ -12,6 +12,7 @@
 #include <cardiac/anatomy/control_nodes.hpp>
 #include <cardiac/anatomy/right_ventricle.hpp>
 #include <cardiac/core/units.hpp>
+#include <cardiac/fibres/fibre_difference.hpp>
 #include <cardiac/fibres/helix.hpp>
 #include <cardiac/heart/discretisation.hpp>
 #include <polyaffine/core/error.hpp>
@@ -38,6 +39,7 @@ struct SegmentOptions {
   std::filesystem::path mesh, out;
   std::string scheme, length_unit;
   LabelOptions labels;
+  FibreArrays arrays;
   std::vector<double> anterior{0, 1, 0}, long_axis;
   HelixAngles angles;
 };
@@ -61,7 +63,7 @@ protocol::Scheme scheme(const std::string& word) {
   throw InputError("--scheme: found \"" + word + "\", expected aha17 or aha29");
 }
 
-// The tables [mesh] and [anatomy] of a protocol, from the options.
+// The tables [mesh], [anatomy] and [fibres] of a protocol, from the options.
 Protocol as_protocol(const SegmentOptions& o) {
   Protocol protocol;
   protocol.mesh.file = o.mesh.string();
@@ -74,13 +76,17 @@ Protocol as_protocol(const SegmentOptions& o) {
   protocol.mesh.rv_endo_label = given_labels(o.labels.rv_endo);
   protocol.anatomy.scheme = scheme(o.scheme);
   protocol.anatomy.anterior_direction = direction("--anterior", o.anterior);
+  auto& fibres = protocol.fibres.emplace();
+  fibres.source = protocol::FibreSource::file;
+  if (!o.arrays.fibre.empty()) fibres.fibre_array = o.arrays.fibre;
+  if (!o.arrays.sheet.empty()) fibres.sheet_array = o.arrays.sheet;
   if (!o.long_axis.empty()) protocol.anatomy.long_axis = direction("--long-axis", o.long_axis);
   return protocol;
 }
 
 #ifdef CARDIAC_WITH_VTK
 polyaffine::WriteFields fields(const Anatomy& anatomy, const std::vector<ControlNode>& nodes,
-                               const HelixAngles& angles) {
+                               const HelixAngles& angles, const std::optional<FibreComparison>& given) {
   const TetMesh& mesh = anatomy.mesh;
   const VentricularCoordinates& coordinates = *anatomy.coordinates;
   polyaffine::WriteFields out;
@@ -93,6 +99,10 @@ polyaffine::WriteFields fields(const Anatomy& anatomy, const std::vector<Control
   out.cell_fields["fibre"] = fibres.topRows(3);
   out.cell_fields["sheet"] = fibres.middleRows(3, 3);
   out.cell_fields["normal"] = fibres.bottomRows(3);
+  if (given) {
+    out.cell_fields["file_fibre"] = given->fibre;
+    out.cell_fields["fibre_angle_deg"] = Eigen::Map<const Eigen::RowVectorXd>(given->angle_deg.data(), tets);
+  }
   Matrix& node = out.cell_fields["control_node"] = Matrix::Zero(1, tets);
   for (std::size_t i = 0; i < nodes.size(); ++i) node(0, nodes[i].tet) = static_cast<double>(i + 1);
 
@@ -121,11 +131,13 @@ polyaffine::WriteFields fields(const Anatomy& anatomy, const std::vector<Control
   return out;
 }
 
-void write_fields(const SegmentOptions& o, const Anatomy& anatomy, const std::vector<ControlNode>& nodes) {
-  polyaffine::write_vtu(o.out, anatomy.mesh, fields(anatomy, nodes, o.angles));
+void write_fields(const SegmentOptions& o, const Anatomy& anatomy, const std::vector<ControlNode>& nodes,
+                  const std::optional<FibreComparison>& given) {
+  polyaffine::write_vtu(o.out, anatomy.mesh, fields(anatomy, nodes, o.angles, given));
 }
 #else
-void write_fields(const SegmentOptions&, const Anatomy&, const std::vector<ControlNode>&) {
+void write_fields(const SegmentOptions&, const Anatomy&, const std::vector<ControlNode>&,
+                  const std::optional<FibreComparison>&) {
   throw InputError("cardiac segment: this build was made without VTK (CMake option POLYAFFINE_WITH_VTK)");
 }
 #endif
@@ -150,16 +162,32 @@ void print_segments(const Anatomy& anatomy, const std::vector<ControlNode>& node
   if (anatomy.labels.rv_endo) std::cout << "right cavity  " << cavity_mL(*anatomy.labels.rv_endo) << " mL\n";
 }
 
+void print_comparison(const Anatomy& anatomy, const FibreComparison& given) {
+  std::cout << "angle between the file's fibres (" << given.description << ") and the rule's, deg\n"
+            << "region           volume_mL     mean   median     95 %\n"
+            << std::setprecision(1);
+  for (const AngleDistribution& d : angle_distribution(anatomy.mesh, *anatomy.coordinates, given.angle_deg))
+    std::cout << std::left << std::setw(16) << d.region << std::right << std::setw(10)
+              << d.volume_mm3 / mm3_per_mL << std::setw(9) << d.mean_deg << std::setw(9) << d.median_deg
+              << std::setw(9) << d.p95_deg << '\n';
+}
+
 void segment(const SegmentOptions& o) {
   const Protocol protocol = as_protocol(o);
   check_output_file(o.out, ".vtu");
   std::vector<std::string> warnings;
-  const Anatomy anatomy = load_anatomy(protocol, warnings);
+  const HeartMesh heart = load_heart(protocol, warnings);
+  const Anatomy anatomy = anatomy_of(heart, protocol);
   print_warnings(warnings);
   const auto nodes =
       control_nodes(anatomy.mesh, *anatomy.coordinates, frame_layout(anatomy.mesh, *anatomy.coordinates));
-  write_fields(o, anatomy, nodes);
+  std::optional<FibreComparison> given;
+  if (has_fibres(heart.file))
+    given =
+        compare_fibres(anatomy.mesh, *anatomy.coordinates, FileFibres(heart.file, o.mesh.string()), o.angles);
+  write_fields(o, anatomy, nodes, given);
   print_segments(anatomy, nodes);
+  if (given) print_comparison(anatomy, *given);
   std::cout << "written " << o.out.string() << " (lengths in mm)\n";
 }
 
@@ -175,6 +203,7 @@ void add_segment_command(CLI::App& app) {
       ->required();
   command->add_option("--out", o->out, "file to write, .vtu, lengths in mm")->required();
   add_label_options(*command, o->labels);
+  add_fibre_options(*command, o->arrays);
   command->add_option("--anterior", o->anterior, "direction from the long axis to the anterior wall")
       ->expected(3)
       ->capture_default_str();

@@ -48,15 +48,26 @@ void check_lengths(const polyaffine::MeshData& data, const std::string& name, co
   }
 }
 
+/// What a field is to be called: of fibres, by the given arrays and the usual names; empty for others.
+std::string role(const std::string& name, Eigen::Index components, const FibreArrays& arrays) {
+  if (components != 3) return "";
+  if (!arrays.fibre.empty() && name == arrays.fibre) return "fibre";
+  if (!arrays.sheet.empty() && name == arrays.sheet) return "sheet";
+  std::string usual = fibre_name(name);
+  const bool taken =
+      (usual == "fibre" && !arrays.fibre.empty()) || (usual == "sheet" && !arrays.sheet.empty());
+  return taken ? "" : usual;
+}
+
 void keep(polyaffine::MeshData& data, std::map<std::string, polyaffine::Matrix>& fields, bool of_tets,
-          bool all) {
+          const FibreArrays& arrays, bool all, std::vector<std::string>& notes) {
   std::map<std::string, polyaffine::Matrix> kept;
   for (auto& [name, field] : fields) {
-    const std::string fibre = field.rows() == 3 ? fibre_name(name) : "";
+    const std::string fibre = role(name, field.rows(), arrays);
     if (!fibre.empty()) {
       check_lengths(data, name, field, of_tets);
-      data.notes.push_back("field \"" + name + "\" kept" + (name == fibre ? "" : " as \"" + fibre + '"') +
-                           (of_tets ? " of tets" : " of points"));
+      notes.push_back("field \"" + name + "\" kept" + (name == fibre ? "" : " as \"" + fibre + '"') +
+                      (of_tets ? " of tets" : " of points"));
     }
     if (!fibre.empty() || all || (of_tets && name == "region"))
       kept[fibre.empty() ? name : fibre] = std::move(field);
@@ -64,11 +75,30 @@ void keep(polyaffine::MeshData& data, std::map<std::string, polyaffine::Matrix>&
   fields = std::move(kept);
 }
 
+void check_given(const polyaffine::MeshData& data, const std::string& name) {
+  if (name.empty()) return;
+  Eigen::Index components = 0;
+  for (const auto* fields : {&data.point_fields, &data.tet_fields})
+    if (const auto at = fields->find(name); at != fields->end()) {
+      components = at->second.rows();
+      if (components == 3) return;
+    }
+  throw polyaffine::InputError(
+      data.source.string() + ": array \"" + name + "\": found " +
+      (components == 0 ? "no point or cell array of this name"
+                       : std::to_string(components) + (components == 1 ? " component" : " components")) +
+      ", expected directions of 3 components");
+}
+
 }  // namespace
 
-void keep_fibre_fields(polyaffine::MeshData& data, bool all) {
-  keep(data, data.point_fields, false, all);
-  keep(data, data.tet_fields, true, all);
+std::vector<std::string> keep_fibre_fields(polyaffine::MeshData& data, const FibreArrays& arrays, bool all) {
+  check_given(data, arrays.fibre);
+  check_given(data, arrays.sheet);
+  std::vector<std::string> notes;
+  keep(data, data.point_fields, false, arrays, all, notes);
+  keep(data, data.tet_fields, true, arrays, all, notes);
+  return notes;
 }
 
 }  // namespace cardiac

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <sstream>
 
-#include <cardiac/anatomy/fibre_fields.hpp>
 #include <cardiac/anatomy/idealised.hpp>
 #include <cardiac/anatomy/recognise_surfaces.hpp>
 #include <cardiac/core/units.hpp>
@@ -165,7 +164,7 @@ void check_heart_surfaces(const TetMesh& mesh) {
 
 HeartMesh make_heart_mesh(polyaffine::MeshData volume, const polyaffine::MeshData* surface,
                           const HeartMeshOptions& options) {
-  keep_fibre_fields(volume, options.all_fields);
+  std::vector<std::string> fibres = keep_fibre_fields(volume, options.fibre_arrays, options.all_fields);
   const polyaffine::MeshData& triangles = surface == nullptr ? volume : *surface;
   if (surface != nullptr && surface->triangles.cols() == 0)
     throw InputError(surface->source.string() + ": found no triangles, expected labelled surface triangles");
@@ -174,7 +173,7 @@ HeartMesh make_heart_mesh(polyaffine::MeshData volume, const polyaffine::MeshDat
   const polyaffine::SurfaceData labels = wanted || !field.empty()
                                              ? polyaffine::labelled_surface(triangles, options.label_array)
                                              : polyaffine::SurfaceData{triangles};
-  HeartMesh out{polyaffine::assemble(volume, labels, options.mm_per_unit), {}};
+  HeartMesh out{polyaffine::assemble(volume, labels, options.mm_per_unit), std::move(fibres), {}};
   try {
     const auto names = field == "physical" ? triangles.surface_names : std::map<int, std::string>{};
     std::vector<int> boundary = canonical(out.file.mesh, names, options.labels, out.file.notes);

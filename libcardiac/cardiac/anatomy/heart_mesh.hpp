@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cardiac/anatomy/fibre_fields.hpp>
 #include <cardiac/anatomy/surface_names.hpp>
 #include <polyaffine/mesh_io/assemble.hpp>
 
@@ -10,6 +11,7 @@ struct HeartMeshOptions {
   double mm_per_unit = 1;     ///< 1 for mm, 10 for cm, 1000 for m, 0.001 for µm
   std::string label_array{};  ///< empty: the first of the usual names (polyaffine::label_field)
   SurfaceLabelMap labels{};
+  FibreArrays fibre_arrays{};
   bool all_fields = false;  ///< keep every numeric array, not only fibres
 };
 
@@ -17,6 +19,7 @@ struct HeartMeshOptions {
 /// kRvEndocardium; with the fields "fibre", "sheet" and "sheet_normal" where the file has them.
 struct HeartMesh {
   polyaffine::MeshFile file;          ///< its notes: what was read, repaired and recognised
+  std::vector<std::string> fibres;    ///< which fields of fibres were kept
   std::vector<std::string> warnings;  ///< what the user should look at
 };
 

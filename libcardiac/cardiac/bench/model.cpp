@@ -37,8 +37,10 @@ BenchModel::BenchModel(const BenchScene& scene, const CurvedMesh& mesh,
   if (protocol.fibres)
     exact.fibres = [shape = scene.shape,
                     angles = HelixAngles{protocol.fibres->endo_angle_deg, protocol.fibres->epi_angle_deg,
-                                         protocol.fibres->sheet_angle_deg}](const Points& X) {
-      return ellipsoid_fibres(shape, angles, X);
+                                         protocol.fibres->sheet_angle_deg}](
+                       const VentricularCoordinates& coordinates, const std::vector<int>& tet,
+                       const Eigen::Matrix4Xd& barycentric) {
+      return ellipsoid_fibres(shape, angles, coordinates.space().positions(tet, barycentric));
     };
   const auto anatomy = std::make_shared<const Anatomy>(build_anatomy(mesh.mesh, protocol, exact));
   ventricle_ = build_ventricle(anatomy, protocol, protocol.reduction.method);

@@ -14,20 +14,24 @@
 
 namespace cardiac {
 
+/// Axes f, s, n at points of a wall with these coordinates.
+using FibreFunction =
+    std::function<FibreAxes(const VentricularCoordinates& coordinates, const std::vector<int>& tet,
+                            const Eigen::Matrix4Xd& barycentric)>;
+
 /// The mesh with its coordinates and segments: what every method starts from.
 struct Anatomy {
   polyaffine::TetMesh mesh;
   SurfaceLabels labels;
   std::shared_ptr<const VentricularCoordinates> coordinates;
   std::vector<int> segment;  ///< AHA segment of each tet
-  std::function<FibreAxes(const polyaffine::Points& X)>
-      fibres;  ///< axes at positions (mm); empty: the protocol's rule in the ventricular coordinates
+  FibreFunction fibres;      ///< empty: the protocol's rule in the ventricular coordinates
 };
 
 /// What is known of a wall beyond its mesh.
 struct ExactGeometry {
-  std::optional<polyaffine::EdgeMidpoints> midpoints;            ///< absent: smooth_midpoints of the mesh
-  std::function<FibreAxes(const polyaffine::Points& X)> fibres;  ///< see Anatomy
+  std::optional<polyaffine::EdgeMidpoints> midpoints;  ///< absent: smooth_midpoints of the mesh
+  FibreFunction fibres;                                ///< see Anatomy
 };
 
 /// The boundary of the mesh carries the labels kEndocardium, kEpicardium and kBase, with two ventricles also

@@ -5,7 +5,6 @@
 
 #include <cardiac/activation/activation.hpp>
 #include <cardiac/anatomy/right_ventricle.hpp>
-#include <cardiac/fibres/helix.hpp>
 #include <cardiac/heart/trained_rule.hpp>
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/energy/springs.hpp>
@@ -15,7 +14,6 @@ namespace cardiac {
 
 using polyaffine::FieldEnergy;
 using polyaffine::Vec3;
-using polyaffine::Vec4;
 using polyaffine::Vector;
 
 namespace {
@@ -55,13 +53,9 @@ Vector activation(const Anatomy& anatomy, const Protocol& protocol, const polyaf
   const auto& a = *protocol.activation;
   const auto n = static_cast<Eigen::Index>(points.tet.size());
   if (a.mode == protocol::ActivationMode::uniform) return Vector::Constant(n, a.onset_ms);
-  const HelixAngles angles = helix_angles(*protocol.fibres);
-  polyaffine::Points fibre(3, anatomy.mesh.num_tets());
-  for (int t = 0; t < anatomy.mesh.num_tets(); ++t)
-    fibre.col(t) = wall_fibres(*anatomy.coordinates, t, Vec4::Constant(0.25), angles).col(0);
   const Vector at_vertices = activation_times(
-      anatomy.mesh, fibre, {a.conduction_along_fibre_mm_per_ms, a.conduction_across_fibre_mm_per_ms},
-      sites(anatomy, a));
+      anatomy.mesh, tet_fibres(anatomy, *protocol.fibres),
+      {a.conduction_along_fibre_mm_per_ms, a.conduction_across_fibre_mm_per_ms}, sites(anatomy, a));
   Vector out(n);
   for (Eigen::Index q = 0; q < n; ++q)
     out[q] = points.barycentric.col(q).dot(at_vertices(anatomy.mesh.tets().col(points.tet[q])));

@@ -1,6 +1,7 @@
 #include "cardiac/heart/wall.hpp"
 
 #include <cmath>
+#include <numeric>
 
 #include <cardiac/fibres/helix.hpp>
 #include <cardiac/tissue/active_stress.hpp>
@@ -64,6 +65,21 @@ HelixAngles helix_angles(const protocol::Fibres& f) {
   return {f.endo_angle_deg, f.epi_angle_deg, f.sheet_angle_deg, f.rv_endo_angle_deg, f.rv_epi_angle_deg};
 }
 
+FibreAxes fibres_at(const Anatomy& anatomy, const protocol::Fibres& fibres, const std::vector<int>& tet,
+                    const Eigen::Matrix4Xd& barycentric) {
+  if (anatomy.fibres) return anatomy.fibres(*anatomy.coordinates, tet, barycentric);
+  if (fibres.source == protocol::FibreSource::file)
+    throw polyaffine::InputError("fibres.source: found file, but the anatomy was built without its fibres");
+  return helix_fibres(*anatomy.coordinates, tet, barycentric, helix_angles(fibres));
+}
+
+polyaffine::Points tet_fibres(const Anatomy& anatomy, const protocol::Fibres& fibres) {
+  const int tets = anatomy.mesh.num_tets();
+  std::vector<int> all(tets);
+  std::iota(all.begin(), all.end(), 0);
+  return fibres_at(anatomy, fibres, all, Eigen::Matrix4Xd::Constant(4, tets, 0.25)).topRows<3>();
+}
+
 RegionFactors region_factors(const Anatomy& anatomy, const Protocol& protocol,
                              const polyaffine::WallPoints& points) {
   RegionFactors out;
@@ -95,11 +111,7 @@ std::shared_ptr<const polyaffine::FieldEnergy> build_wall(const Anatomy& anatomy
   if (protocol.fibres) {
     ++built["fibres"];
     const auto& points = discretisation.points;
-    if (anatomy.fibres)
-      fibres = anatomy.fibres(anatomy.coordinates->space().positions(points.tet, points.barycentric));
-    else
-      fibres =
-          helix_fibres(*anatomy.coordinates, points.tet, points.barycentric, helix_angles(*protocol.fibres));
+    fibres = fibres_at(anatomy, *protocol.fibres, points.tet, points.barycentric);
   }
   const protocol::Tissue& tissue = protocol.tissue;
   std::vector<LawPointer> laws{passive_law(tissue, fibres, factors.stiffness)};

@@ -15,6 +15,14 @@ namespace cardiac {
 /// The angles of a protocol's fibres.
 HelixAngles helix_angles(const protocol::Fibres& fibres);
 
+/// Axes f, s, n at points of the wall: the anatomy's own fibres, or the protocol's rule. Throws InputError
+/// when the protocol wants those of the file and the anatomy has none.
+FibreAxes fibres_at(const Anatomy& anatomy, const protocol::Fibres& fibres, const std::vector<int>& tet,
+                    const Eigen::Matrix4Xd& barycentric);
+
+/// Fibre directions at the centroids of the tets, 3 × tets.
+polyaffine::Points tet_fibres(const Anatomy& anatomy, const protocol::Fibres& fibres);
+
 /// How often the builder of each part ran; a part that is not in it was not built.
 using BuildCount = std::map<std::string, int>;
 

@@ -221,39 +221,70 @@ Table tissue_table() {
   return table.build();
 }
 
+KeyFacts of_source(std::string source, std::string meaning, std::string absent) {
+  KeyFacts facts;
+  facts.meaning = std::move(meaning);
+  facts.absent = std::move(absent);
+  facts.used_with = "source";
+  facts.used_values = {std::move(source)};
+  return facts;
+}
+
 Table fibres_table() {
   TableBuilder table("fibres", "Direction of the muscle fibres.", &Protocol::fibres);
   table
+      .key("source", &Fibres::source,
+           {.meaning = "rule: the directions of rule and its angles; file: those that the mesh file brings, "
+                       "vectors of points or of tets, of any length and sign; without sheet directions the "
+                       "sheet is the wall normal across the fibre"})
+      .key("fibre_array", &Fibres::fibre_array,
+           of_source("file", "array of the mesh file with the fibre directions",
+                     "the first of the usual names: fibre, fiber, f0, …"))
+      .key("sheet_array", &Fibres::sheet_array,
+           of_source("file", "array of the mesh file with the sheet directions",
+                     "the usual names (sheet, s0, sheet_normal, n0, …), if there are any"))
       .key("rule", &Fibres::rule,
            {.meaning = "helix: the angle from the circumferential towards the longitudinal (base) direction "
                        "varies linearly through the depth of the wall",
-            .source = "Bayer 2012; Streeter 1969"})
+            .source = "Bayer 2012; Streeter 1969",
+            .used_with = "source",
+            .used_values = {"rule"}})
       .key("endo_angle_deg", &Fibres::endo_angle_deg,
            {.unit = "deg",
             .range = {-90, 90},
             .meaning = "helix angle at the endocardium",
-            .source = "Bayer 2012"})
+            .source = "Bayer 2012",
+            .used_with = "source",
+            .used_values = {"rule"}})
       .key("epi_angle_deg", &Fibres::epi_angle_deg,
            {.unit = "deg",
             .range = {-90, 90},
             .meaning = "helix angle at the epicardium",
-            .source = "Bayer 2012"})
+            .source = "Bayer 2012",
+            .used_with = "source",
+            .used_values = {"rule"}})
       .key("sheet_angle_deg", &Fibres::sheet_angle_deg,
            {.unit = "deg",
             .range = {-90, 90},
-            .meaning = "angle of the sheet direction from the wall normal, about the fibre"})
+            .meaning = "angle of the sheet direction from the wall normal, about the fibre",
+            .used_with = "source",
+            .used_values = {"rule"}})
       .key("rv_endo_angle_deg", &Fibres::rv_endo_angle_deg,
            {.unit = "deg",
             .range = {-180, 180},
             .meaning = "helix angle at the endocardium of the right free wall",
-            .source = "Bayer 2012"})
+            .source = "Bayer 2012",
+            .used_with = "source",
+            .used_values = {"rule"}})
       .key(
           "rv_epi_angle_deg", &Fibres::rv_epi_angle_deg,
           {.unit = "deg",
            .range = {-180, 180},
            .meaning = "helix angle at the epicardium of the right free wall; -60 and 120 are the same fibre, "
                       "to which the angle turns through circumferential or through longitudinal fibres",
-           .source = "Bayer 2012"});
+           .source = "Bayer 2012",
+           .used_with = "source",
+           .used_values = {"rule"}});
   return table.build();
 }
 

@@ -42,6 +42,9 @@ constexpr Names<3> names_of(Integration) {
 constexpr Names<5> names_of(TissueLaw) {
   return {"guccione", "holzapfel_ogden", "neo_hookean", "mooney_rivlin", "saint_venant_kirchhoff"};
 }
+constexpr Names<2> names_of(FibreSource) {
+  return {"rule", "file"};
+}
 constexpr Names<1> names_of(FibreRule) {
   return {"helix"};
 }

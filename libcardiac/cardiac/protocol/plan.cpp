@@ -17,7 +17,11 @@ PlanItem mesh_item(const Mesh& mesh) {
 
 PlanItem fibres_item(const Protocol& protocol) {
   const std::string why = why_fibres(protocol);
-  if (!why.empty()) return {"fibres", true, why};
+  if (!why.empty() && protocol.fibres->source == FibreSource::file)
+    return {"fibres", true, why + "; those of " + *protocol.mesh.file + " (fibres.source = file)"};
+  if (!why.empty())
+    return {"fibres", true,
+            why + "; by the rule " + name_of(protocol.fibres->rule) + " (fibres.source = rule)"};
   const std::string idle = "the law " + name_of(protocol.tissue.law) + " is isotropic and nothing contracts";
   return {"fibres", false, protocol.fibres ? "[fibres] is named, but " + idle : idle};
 }

@@ -107,6 +107,9 @@ void check_activity(const Protocol& protocol, const Place& place) {
   if (needs_fibres(protocol) && !protocol.fibres) {
     fail(place, "fibres", "missing; expected a table [fibres]: " + why_fibres(protocol));
   }
+  if (protocol.fibres && protocol.fibres->source == FibreSource::file && !protocol.mesh.file)
+    fail(place, "fibres.source",
+         "found \"file\" beside mesh.shape; expected \"rule\" or a mesh.file with fibres");
 }
 
 void check_load(const Protocol& protocol, const Place& place) {

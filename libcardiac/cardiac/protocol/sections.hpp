@@ -68,8 +68,11 @@ struct Tissue {
   double viscosity_kPa_ms = 100;
 };
 
+enum class FibreSource { rule, file };
 enum class FibreRule { helix };
 struct Fibres {
+  FibreSource source = FibreSource::rule;
+  std::optional<std::string> fibre_array, sheet_array;  ///< of the mesh file; absent: the usual names
   FibreRule rule = FibreRule::helix;
   double endo_angle_deg = 60, epi_angle_deg = -60;        ///< from circumferential towards the base
   double sheet_angle_deg = 0;                             ///< of the sheet direction from the wall normal
