@@ -48,10 +48,12 @@ BeatErrors beat_errors(const Beat& reference, const Beat& beat) {
   out.ef_points = beat.result.ventricles[0].ef_percent - reference.result.ventricles[0].ef_percent;
   out.gls_points = beat.result.strain.gls_percent - reference.result.strain.gls_percent;
   const auto a = peaks(reference.result), b = peaks(beat.result);
-  for (std::size_t s = 0; s < a.size(); ++s)
+  for (std::size_t s = 0; s < a.size(); ++s) {
+    double& worst = s + 1 == kAhaSegments ? out.apex_peak_strain : out.peak_strain;
     for (const auto strain :
          {&SegmentPeaks::longitudinal, &SegmentPeaks::circumferential, &SegmentPeaks::radial})
-      out.peak_strain = std::max(out.peak_strain, std::abs((a[s].*strain).value - (b[s].*strain).value));
+      worst = std::max(worst, std::abs((a[s].*strain).value - (b[s].*strain).value));
+  }
   out.real_time_factor = 1000 * beat.solve_s / beat.path.simulated_ms;
   return out;
 }

@@ -14,7 +14,8 @@ namespace cardiac {
 /// What a beat adds to a row, against the full-order beat.
 struct BeatErrors {
   double ef_points = 0, gls_points = 0;  ///< ejection fraction and GLS, differences in points of per cent
-  double peak_strain = 0;       ///< largest difference of a peak normal strain of a segment (Lagrangian)
+  double peak_strain = 0;       ///< largest difference of a peak normal strain (Lagrangian), segments 1–16
+  double apex_peak_strain = 0;  ///< the same in segment 17
   double real_time_factor = 0;  ///< solve_s over the simulated time
 };
 

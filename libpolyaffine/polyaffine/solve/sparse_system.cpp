@@ -39,17 +39,19 @@ class SparseSystem : public LinearSystem {
   void add(const std::vector<int>& functions, const Matrix& K) override {
     for (std::size_t b = 0; b < functions.size(); ++b) {
       const int fb = functions[b];
+      const int* coupled = coupled_.data() + start_[fb];
+      const int* last = coupled_.data() + start_[fb + 1];
       for (std::size_t a = 0; a < functions.size(); ++a) {
         const int fa = functions[a];
         if (fa < fb) continue;
-        const auto rank =
-            std::lower_bound(coupled_.begin() + start_[fb], coupled_.begin() + start_[fb + 1], fa) -
-            (coupled_.begin() + start_[fb]);
+        const std::ptrdiff_t rank = std::lower_bound(coupled, last, fa) - coupled;
+        const bool held = holds(fa) || holds(fb);
         for (int j = 0; j < 3; ++j) {
-          double* column = values_.data() + columns_[3 * fb + j] + (rank == 0 ? -j : 3 * rank - j);
+          double* column = values_.data() + columns_[3 * fb + j] + (3 * rank - j);
+          const double* from =
+              K.col(static_cast<Eigen::Index>(3 * b + j)).data() + static_cast<std::ptrdiff_t>(3 * a);
           for (int i = rank == 0 ? j : 0; i < 3; ++i)
-            if (!fixed_[3 * fa + i] && !fixed_[3 * fb + j])
-              column[i] += K(static_cast<Eigen::Index>(3 * a + i), static_cast<Eigen::Index>(3 * b + j));
+            if (!held || (!fixed_[3 * fa + i] && !fixed_[3 * fb + j])) column[i] += from[i];
         }
       }
     }
@@ -97,6 +99,10 @@ class SparseSystem : public LinearSystem {
   bool positive_definite() const override { return positive_; }
 
  private:
+  bool holds(int function) const {
+    return fixed_[3 * function] || fixed_[3 * function + 1] || fixed_[3 * function + 2];
+  }
+
   void build_pattern(const std::vector<const FieldTable*>& tables) {
     const int n = tables.front()->num_functions;
     std::vector<std::vector<int>> below(n);
