@@ -45,6 +45,13 @@ pressure_mmHg = 101.26
 
 constexpr double kTension = 75, kPressure = 13.5, kScarTension = 0.2, kScarBorder = 0.1;
 
+// Tells a model that regions differ, and which; the tension itself is that of the path.
+constexpr auto kScar = R"(
+[[region]]
+segments = [7, 8]
+tension_factor = 0.2
+)";
+
 double healthy_tension(const Vec3&) {
   return kTension;
 }
@@ -80,7 +87,7 @@ const std::vector<BenchScene>& bench_scenes() {
          "end_systole_scar",
          "End systole with a scar",
          shape,
-         kEndSystole,
+         std::string(kEndSystole) + kScar,
          {{kPressure, healthy_tension}, {kPressure, scar_tension}}}};
     for (const char* poisson : {"0.3", "0.4", "0.45", "0.49", "0.499", "0.4999"})
       out.push_back({kCompliance,

@@ -31,8 +31,9 @@ constexpr int kCandidateDegree = 4, kPartDegree = 2, kWallCuts = 1, kSurfaceCuts
 // Corners are asked for their cell this share of the way to the middle of the element: one that only touches
 // a border is not crossed by it, and rounding does not decide.
 constexpr double kDrawnIn = 1e-3;
-// Polynomials kept exact in a cell, along u, ψ and the depth: fibres turn by 120° through the wall.
-constexpr polyaffine::CellDegree kCellDegree{4, 4, 8};
+// Polynomials kept exact in a cell, along u, ψ and the depth: fibres turn by 120° through the wall. The
+// second one where functions are quadratic along the wall.
+constexpr polyaffine::CellDegree kCellDegree{4, 4, 8}, kBentCellDegree{6, 6, 8};
 // Total degree in u and ψ of the polynomials kept exact in a cell of a surface.
 constexpr int kSurfaceDegree = 4;
 
@@ -43,6 +44,12 @@ std::vector<Monomial> monomials(const Protocol& protocol) {
     if (std::find(out.begin(), out.end(), m) == out.end()) out.push_back(m);
   }
   return out;
+}
+
+polyaffine::CellDegree cell_degree(const std::vector<Monomial>& functions) {
+  const bool bent =
+      std::any_of(functions.begin(), functions.end(), [](const Monomial& m) { return m[0] + m[1] > 1; });
+  return bent ? kBentCellDegree : kCellDegree;
 }
 
 // Functions of every frame. Within a ring the tents interpolate linearly, so Σ_j C_j(ψ) (ψ − ψ_j) = 0: of the
@@ -230,9 +237,10 @@ Discretisation reduced_discretisation(const Anatomy& anatomy, const Protocol& pr
               : tent_candidates(geometry, *out.frames);
   const WallPoints& candidates = from.wall;
   const Cells cells = sigmoid ? region_cells(anatomy, out, candidates) : tent_cells(*out.frames, candidates);
-  out.points = protocol.reduction.integration == protocol::Integration::gauss
-                   ? polyaffine::group_cells(candidates, cells.cell)
-                   : polyaffine::compress_cells(candidates, cells.cell, cells.place, kCellDegree);
+  out.points =
+      protocol.reduction.integration == protocol::Integration::gauss
+          ? polyaffine::group_cells(candidates, cells.cell)
+          : polyaffine::compress_cells(candidates, cells.cell, cells.place, cell_degree(monomials(protocol)));
   add_surface_points(anatomy, protocol, geometry, from.face, out);
   for (auto* points : {&out.cavity_points, &out.right_cavity_points, &out.epicardium_points})
     if (!points->tet.empty()) *points = compressed(anatomy, out, *points);

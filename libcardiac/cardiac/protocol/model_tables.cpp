@@ -88,7 +88,8 @@ Table reduction_table() {
       .key("preset", &Reduction::preset,
            {.meaning =
                 "set of enrichment and pressure_space: fast {tt, lt; segment_depth}, accurate {tt, lt, ct, "
-                "ltt, ctt, ttt; segment_bilinear}",
+                "ltt, ctt, ttt; segment_bilinear}, the latter with {ll, lc, cc} besides where a [[region]] "
+                "differs from the rest: its bulge bends the wall along l and c",
             .source =
                 "cardiac bench, 17 nodes, without a scar: 2 to 4 and about 2 per cent of displacement error"})
       .key("weights", &Reduction::weights,

@@ -147,7 +147,7 @@ Protocol parse_protocol(const std::string& text, const std::filesystem::path& so
   for (const Entry& entry : entries) assign(protocol, entry);
   check_required(protocol, entries, source.string());
   check_rules(protocol, place_in(entries, source.string()));
-  fill_presets(protocol.reduction);
+  fill_presets(protocol);
   warn_of_unused(protocol, entries);
   return protocol;
 }

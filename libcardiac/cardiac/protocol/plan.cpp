@@ -54,6 +54,13 @@ PlanItem circulation_item(const Protocol& protocol) {
   return {"circulation", false, protocol.cavities ? "the pressure is prescribed" : "no table [circulation]"};
 }
 
+PlanItem regions_item(const Protocol& protocol) {
+  if (protocol.regions.empty()) return {"regions", false, "no table [[region]]: every segment is alike"};
+  std::string why = std::to_string(protocol.regions.size()) + " named by [[region]]";
+  if (!regions_differ(protocol)) why += ", none of which differs from the rest";
+  return {"regions", true, why};
+}
+
 PlanItem reduction_item(const Reduction& reduction, Scheme scheme) {
   std::string why = "reduction.method = " + name_of(reduction.method);
   if (reduction.method == Method::fem) return {"reduction", false, why};
@@ -67,7 +74,11 @@ PlanItem reduction_item(const Reduction& reduction, Scheme scheme) {
     nodes += 12;
     rings += " + 12 of the right free wall";
   }
-  return {"reduction", true, why + ", " + std::to_string(nodes) + " control nodes (" + rings + ")"};
+  std::string functions;
+  for (const std::string& word : *reduction.enrichment) functions += " + " + word;
+  return {
+      "reduction", true,
+      why + ", " + std::to_string(nodes) + " control nodes (" + rings + "), functions affine" + functions};
 }
 
 PlanItem output_item(std::string part, bool wanted, const std::string& key) {
@@ -88,9 +99,7 @@ std::vector<PlanItem> plan(const Protocol& protocol, bool verify) {
       contraction_item(protocol),
       cavity_item(protocol),
       circulation_item(protocol),
-      {"regions", !protocol.regions.empty(),
-       protocol.regions.empty() ? "no table [[region]]: every segment is alike"
-                                : std::to_string(protocol.regions.size()) + " named by [[region]]"},
+      regions_item(protocol),
       reduction_item(protocol.reduction, protocol.anatomy.scheme),
       {"full order", !reduced || verify, reduced && verify ? "--verify" : method}};
   if (reduced && verify) {

@@ -156,11 +156,22 @@ void check_regions(const std::vector<RegionOverride>& regions, Scheme scheme, co
 
 }  // namespace
 
-void fill_presets(Reduction& reduction) {
+bool regions_differ(const Protocol& protocol) {
+  return std::ranges::any_of(protocol.regions, [&](const RegionOverride& r) {
+    return r.stiffness_factor != 1 ||
+           (protocol.contraction && (r.tension_factor != 1 || r.activation_delay_ms != 0));
+  });
+}
+
+void fill_presets(Protocol& protocol) {
+  Reduction& reduction = protocol.reduction;
   const bool fast = reduction.preset == Preset::fast;
   using Words = std::vector<std::string>;
-  if (!reduction.enrichment)
-    reduction.enrichment = fast ? Words{"tt", "lt"} : Words{"tt", "lt", "ct", "ltt", "ctt", "ttt"};
+  if (!reduction.enrichment) {
+    Words words = fast ? Words{"tt", "lt"} : Words{"tt", "lt", "ct", "ltt", "ctt", "ttt"};
+    if (!fast && regions_differ(protocol)) words.insert(words.end(), {"ll", "lc", "cc"});
+    reduction.enrichment = std::move(words);
+  }
   if (!reduction.pressure_space) {
     reduction.pressure_space = fast ? PressureSpace::segment_depth : PressureSpace::segment_bilinear;
   }

@@ -10,8 +10,13 @@ namespace cardiac::protocol {
 /// Where a key was given ("file:12"), or where it could be ("file") when it was not; for messages.
 using Place = std::function<std::string(const std::string& path)>;
 
-/// The presets, written out: enrichment and pressure space that the file does not name.
-void fill_presets(Reduction& reduction);
+/// The presets, written out: enrichment and pressure space that the file does not name. The accurate one has
+/// more functions along the wall where regions differ.
+void fill_presets(Protocol& protocol);
+
+/// Does some [[region]] move otherwise than the rest: another stiffness or, where something contracts,
+/// another tension or time?
+bool regions_differ(const Protocol& protocol);
 
 /// What a single key cannot tell: keys that need, exclude or contradict one another. Throws
 /// polyaffine::InputError at the first violation.

@@ -50,6 +50,24 @@ TEST(Parse, AbsentTablesStayAbsentAndNamedOnesTakeDefaults) {
   EXPECT_EQ(beat.fibres->epi_angle_deg, -60);
 }
 
+TEST(Parse, AccuratePresetBendsTheWallWhereRegionsDiffer) {
+  using Words = std::vector<std::string>;
+  const std::string region = "[[region]]\nsegments = [7]\n";
+  const auto enrichment = [](const std::string& text, const std::string& preset = "accurate") {
+    return *parsed(text, {"reduction.preset=" + preset}).reduction.enrichment;
+  };
+  const Words alike{"tt", "lt", "ct", "ltt", "ctt", "ttt"};
+  const Words differing{"tt", "lt", "ct", "ltt", "ctt", "ttt", "ll", "lc", "cc"};
+  EXPECT_EQ(enrichment(kBeat), alike);
+  EXPECT_EQ(enrichment(kBeat + region), alike);
+  for (const char* key : {"tension_factor", "stiffness_factor", "activation_delay_ms"})
+    EXPECT_EQ(enrichment(kBeat + region + key + " = 0.5\n"), differing) << key;
+  EXPECT_EQ(enrichment(kBeat + region + "tension_factor = 0.5\n", "fast"), (Words{"tt", "lt"}));
+  // Nothing contracts: of the factors only the stiffness plays a part.
+  EXPECT_EQ(enrichment(kPassive + region + "tension_factor = 0.5\n"), alike);
+  EXPECT_EQ(enrichment(kPassive + region + "stiffness_factor = 0.5\n"), differing);
+}
+
 TEST(Parse, PresetFillsWhatTheFileLeavesOut) {
   using cardiac::protocol::PressureSpace;
   const auto fast = parsed(kPassive).reduction;

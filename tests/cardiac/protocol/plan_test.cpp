@@ -39,6 +39,19 @@ TEST(Plan, CountsTheControlNodes) {
   EXPECT_THAT(why({"reduction.ring_nodes=[12, 8]"}), testing::HasSubstr("21 control nodes"));
 }
 
+TEST(Plan, TellsTheFunctionsAndWhetherRegionsDiffer) {
+  const auto why = [](const std::string& part, const std::string& text) {
+    const auto items = plan(parsed(text, {"reduction.preset=accurate"}));
+    return std::ranges::find(items, part, &cardiac::PlanItem::part)->why;
+  };
+  const std::string region = "[[region]]\nsegments = [7]\n";
+  EXPECT_THAT(why("reduction", kBeat), testing::EndsWith("affine + tt + lt + ct + ltt + ctt + ttt"));
+  EXPECT_THAT(why("reduction", kBeat + region + "tension_factor = 0.2\n"),
+              testing::EndsWith("+ ttt + ll + lc + cc"));
+  EXPECT_THAT(why("regions", kBeat + region), testing::HasSubstr("none of which differs"));
+  EXPECT_EQ(why("regions", kBeat + region + "tension_factor = 0.2\n"), "1 named by [[region]]");
+}
+
 TEST(Plan, NamedButIdlePartsAreLeftOut) {
   const auto items = plan(parsed(kPassive + "[fibres]\n[activation]\n"));
   EXPECT_FALSE(builds(items, "fibres"));
