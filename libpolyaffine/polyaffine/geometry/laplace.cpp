@@ -2,6 +2,8 @@
 
 #include <Eigen/CholmodSupport>
 #include <algorithm>
+#include <cstdint>
+#include <utility>
 
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/core/serial_blas.hpp>
@@ -35,7 +37,28 @@ ElementMatrix element_matrix(const LagrangeBasis& basis, const WallPoints& point
   return K;
 }
 
-Sparse assembled(const LagrangeBasis& basis, const WallPoints& points,
+// Number of each point along a curve through space (Morton 1966), so that neighbours are near each other in
+// memory however a mesh numbers them.
+std::vector<int> along_curve(const Points& X) {
+  constexpr int kBits = 20;  // of a coordinate
+  const Vec3 low = X.rowwise().minCoeff();
+  const double side = (X.rowwise().maxCoeff() - low).maxCoeff();
+  std::vector<std::pair<std::uint64_t, int>> codes(X.cols());
+  for (Eigen::Index p = 0; p < X.cols(); ++p) {
+    std::uint64_t code = 0;
+    for (int k = 0; k < 3; ++k) {
+      const auto place = static_cast<std::uint64_t>((X(k, p) - low[k]) / side * ((1 << kBits) - 1));
+      for (int bit = 0; bit < kBits; ++bit) code |= (place >> bit & 1) << (3 * bit + k);
+    }
+    codes[p] = {code, static_cast<int>(p)};
+  }
+  std::ranges::sort(codes);
+  std::vector<int> number(codes.size());
+  for (std::size_t n = 0; n < codes.size(); ++n) number[codes[n].second] = static_cast<int>(n);
+  return number;
+}
+
+Sparse assembled(const LagrangeBasis& basis, const std::vector<int>& number, const WallPoints& points,
                  const std::function<DiffusionPoint(std::size_t)>& at) {
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve((points.starts.size() - 1) *
@@ -45,27 +68,32 @@ Sparse assembled(const LagrangeBasis& basis, const WallPoints& points,
     const auto nodes = basis.elements().col(points.tet[points.starts[t]]);
     for (Eigen::Index b = 0; b < nodes.size(); ++b)
       for (Eigen::Index a = 0; a < nodes.size(); ++a)
-        if (nodes[a] >= nodes[b]) entries.emplace_back(nodes[a], nodes[b], K(a, b));
+        if (const int i = number[nodes[a]], j = number[nodes[b]]; i >= j) entries.emplace_back(i, j, K(a, b));
   }
   Sparse lower(basis.num_functions(), basis.num_functions());
   lower.setFromTriplets(entries.begin(), entries.end());
   return lower.selfadjointView<Eigen::Lower>();
 }
 
-// Values of the linear functions of the vertices at the nodes of a quadratic basis.
-Sparse linear_in_quadratic(const LagrangeBasis& basis) {
+// Values of the linear functions of the vertices (columns, in the order of their numbers) at the numbered
+// nodes of a quadratic basis.
+Sparse linear_in_quadratic(const LagrangeBasis& basis, const std::vector<int>& number,
+                           const std::vector<int>& vertices) {
   const auto& elements = basis.elements();
   if (basis.order() == 1) return Sparse(basis.num_functions(), 0);
   const Eigen::Matrix4Xd corners = basis.node_barycentric();
+  std::vector<int> column(basis.num_functions());
+  for (std::size_t v = 0; v < vertices.size(); ++v) column[vertices[v]] = static_cast<int>(v);
   std::vector<char> done(basis.num_functions(), 0);
   std::vector<Eigen::Triplet<double>> entries;
   for (Eigen::Index t = 0; t < elements.cols(); ++t)
     for (Eigen::Index k = 0; k < elements.rows(); ++k) {
       if (done[elements(k, t)]++) continue;
       for (int v = 0; v < 4; ++v)
-        if (corners(v, k) > 0) entries.emplace_back(elements(k, t), elements(v, t), corners(v, k));
+        if (corners(v, k) > 0)
+          entries.emplace_back(number[elements(k, t)], column[number[elements(v, t)]], corners(v, k));
     }
-  Sparse out(basis.num_functions(), elements.topRows<4>().maxCoeff() + 1);
+  Sparse out(basis.num_functions(), static_cast<Eigen::Index>(vertices.size()));
   out.setFromTriplets(entries.begin(), entries.end());
   return out;
 }
@@ -98,26 +126,32 @@ Vector factorised(const Sparse& A, const Vector& b) {
 
 DiffusionProblem::DiffusionProblem(const LagrangeBasis& basis, const WallPoints& points,
                                    const std::function<DiffusionPoint(std::size_t)>& at)
-    : matrix_(assembled(basis, points, at)), interpolation_(linear_in_quadratic(basis)) {}
+    : number_(along_curve(basis.nodes())), matrix_(assembled(basis, number_, points, at)) {
+  vertices_.assign(number_.begin(), number_.begin() + basis.elements().topRows<4>().maxCoeff() + 1);
+  std::ranges::sort(vertices_);
+  interpolation_ = linear_in_quadratic(basis, number_, vertices_);
+}
 
 Vector DiffusionProblem::solve(const std::vector<NodeValue>& dirichlet) const {
   if (dirichlet.empty()) throw ComputationError("Laplace problem: no boundary value is given");
-  Vector solution = Vector::Zero(matrix_.rows());
-  std::vector<int> unknown(matrix_.rows(), 0);
+  Vector values = Vector::Zero(matrix_.rows());
+  std::vector<int> unknown(number_.size(), 0);
   for (const auto& [node, value] : dirichlet) {
-    unknown[node] = -1;
-    solution[node] = value;
+    unknown[number_[node]] = -1;
+    values[number_[node]] = value;
   }
   int count = 0;
   for (int& n : unknown)
     if (n >= 0) n = count++;
-  if (count == 0) return solution;
-  std::vector<int> coarse(unknown.begin(), unknown.begin() + interpolation_.cols());
-  int vertices = 0;
-  for (int& n : coarse)
-    if (n >= 0) n = vertices++;
+  if (count > 0) solve_free(unknown, count, values);
+  return values(number_);
+}
 
-  const Vector known = matrix_ * solution;
+void DiffusionProblem::solve_free(const std::vector<int>& unknown, int count, Vector& values) const {
+  std::vector<int> coarse(interpolation_.cols());
+  int vertices = 0;
+  for (std::size_t v = 0; v < coarse.size(); ++v) coarse[v] = unknown[vertices_[v]] >= 0 ? vertices++ : -1;
+  const Vector known = matrix_ * values;
   Vector rhs(count);
   for (std::size_t n = 0; n < unknown.size(); ++n)
     if (unknown[n] >= 0) rhs[unknown[n]] = -known[static_cast<Eigen::Index>(n)];
@@ -127,8 +161,7 @@ Vector DiffusionProblem::solve(const std::vector<NodeValue>& dirichlet) const {
     x = solve_two_level(A, part(interpolation_, unknown, coarse), rhs, kTolerance, kMostIterations);
   if (!x) x = factorised(A, rhs);
   for (std::size_t n = 0; n < unknown.size(); ++n)
-    if (unknown[n] >= 0) solution[static_cast<Eigen::Index>(n)] = (*x)[unknown[n]];
-  return solution;
+    if (unknown[n] >= 0) values[static_cast<Eigen::Index>(n)] = (*x)[unknown[n]];
 }
 
 DiffusionProblem laplace_problem(const LagrangeBasis& basis) {

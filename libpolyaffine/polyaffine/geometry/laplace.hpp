@@ -42,7 +42,12 @@ class DiffusionProblem {
   Vector solve(const std::vector<NodeValue>& dirichlet) const;
 
  private:
+  // Finds the values that have a place among the `count` unknowns (−1: none).
+  void solve_free(const std::vector<int>& unknown, int count, Vector& values) const;
+
+  std::vector<int> number_;  // row of each node
   Eigen::SparseMatrix<double> matrix_;
+  std::vector<int> vertices_;  // rows of the vertices
   // From linear to quadratic functions; without columns for linear elements.
   Eigen::SparseMatrix<double> interpolation_;
 };
