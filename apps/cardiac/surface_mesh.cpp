@@ -6,10 +6,12 @@
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/mesh/surface.hpp>
 #include <polyaffine/mesh_io/closed_surface.hpp>
+#include <polyaffine/mesh_io/label_fields.hpp>
 
 #include "read_heart.hpp"
 
 #ifdef CARDIAC_WITH_CGAL
+#include <polyaffine/meshing/nearest_triangles.hpp>
 #include <polyaffine/meshing/polyhedral_domain.hpp>
 #endif
 
@@ -21,6 +23,30 @@ bool is_surface_file(const std::filesystem::path& file) {
   constexpr std::array kExtensions{".stl", ".off", ".obj", ".ply", ".vtp"};
   return std::ranges::find(kExtensions, file.extension().string()) != kExtensions.end();
 }
+
+#ifdef CARDIAC_WITH_CGAL
+namespace {
+
+// Gives each boundary triangle of the filled surface the label of the nearest one of the file, in the field
+// of the same name; nothing where the file has no labels.
+void carry_labels(const polyaffine::MeshData& surface, const std::string& wanted,
+                  const polyaffine::TetMesh& mesh, polyaffine::MeshData& filled) {
+  const std::string name = polyaffine::label_field(surface, wanted);
+  if (name.empty()) return;
+  const std::vector<int> labels = polyaffine::labelled_surface(surface, wanted).labels;
+  filled.triangles = mesh.boundary();
+  polyaffine::Points centroids(3, filled.triangles.cols());
+  for (Eigen::Index f = 0; f < centroids.cols(); ++f)
+    centroids.col(f) = mesh.points()(Eigen::all, filled.triangles.col(f)).rowwise().mean();
+  const auto nearest = polyaffine::nearest_triangles(surface.points, surface.triangles, centroids);
+  polyaffine::Matrix& field = filled.triangle_fields[name] = polyaffine::Matrix(1, centroids.cols());
+  for (Eigen::Index f = 0; f < centroids.cols(); ++f) field(0, f) = labels[nearest[f]];
+  filled.surface_names = surface.surface_names;
+  filled.notes.push_back("labels \"" + name + "\" of the surface carried over");
+}
+
+}  // namespace
+#endif
 
 HeartMesh fill_surface(const std::filesystem::path& file, const HeartMeshOptions& options,
                        std::optional<double> size_mm) {
@@ -44,6 +70,7 @@ HeartMesh fill_surface(const std::filesystem::path& file, const HeartMeshOptions
         polyaffine::mesh_polyhedral_domain(data.points, data.triangles, polyaffine::sizes_for_edge(edge));
     filled.points = mesh.points();
     filled.tets = mesh.tets();
+    carry_labels(data, options.label_array, mesh, filled);
   } catch (const InputError& error) {
     throw InputError(file.string() + ": " + error.what());
   }

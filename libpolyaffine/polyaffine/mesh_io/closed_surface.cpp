@@ -45,6 +45,24 @@ void drop_collapsed(MeshData& data) {
   if (const auto twice = keys.size() - kept.size(); twice > 0)
     data.notes.push_back(std::to_string(twice) + " repeated triangles left out");
   data.triangles = Triangles(data.triangles(Eigen::all, kept));
+  for (auto& [name, field] : data.triangle_fields) field = Matrix(field(Eigen::all, kept));
+}
+
+/// Leaves out points of no triangle.
+void drop_unused_points(MeshData& data) {
+  std::vector<int> number(data.points.cols(), -1), kept;
+  for (int& p : data.triangles.reshaped()) {
+    if (number[p] < 0) {
+      number[p] = static_cast<int>(kept.size());
+      kept.push_back(p);
+    }
+    p = number[p];
+  }
+  const auto unused = number.size() - kept.size();
+  if (unused == 0) return;
+  data.notes.push_back(std::to_string(unused) + " points of no triangle left out");
+  data.points = Points(data.points(Eigen::all, kept));
+  for (auto& [name, field] : data.point_fields) field = Matrix(field(Eigen::all, kept));
 }
 
 /// Turns triangles so that neighbours agree and all look outwards.
@@ -92,6 +110,7 @@ void make_closed_surface(MeshData& data) {
   if (data.triangles.cols() == 0) fail(data, "found no triangles, expected a closed surface");
   join_points(data);
   drop_collapsed(data);
+  drop_unused_points(data);
   if (data.triangles.cols() == 0) fail(data, "found only triangles without area, expected a closed surface");
   const TriangleAdjacency adjacency = triangle_adjacency(data.triangles);
   if (!adjacency.crowded.empty())

@@ -173,4 +173,59 @@ TEST_F(ImportCommand, AClosedSurfaceIsFilledLabelledAndBeats) {
   EXPECT_THAT(beat.out, HasSubstr("EF"));
 }
 
+/// XML polydata with a label of each triangle.
+void write_vtp(const fs::path& file, const TetMesh& mesh, const std::string& name,
+               const std::vector<int>& labels) {
+  std::ofstream out(file);
+  out.precision(17);
+  const Eigen::Index n = mesh.boundary().cols();
+  out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\"><PolyData><Piece "
+         "NumberOfPoints=\""
+      << mesh.num_points() << "\" NumberOfPolys=\"" << n
+      << "\"><Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">"
+      << mesh.points().transpose()
+      << "</DataArray></Points><Polys><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">"
+      << mesh.boundary().transpose()
+      << "</DataArray><DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">";
+  for (Eigen::Index f = 1; f <= n; ++f) out << 3 * f << ' ';
+  out << "</DataArray></Polys><CellData><DataArray type=\"Int32\" Name=\"" << name << "\" format=\"ascii\">";
+  for (const int label : labels) out << label << ' ';
+  out << "</DataArray></CellData></Piece></PolyData></VTKFile>\n";
+}
+
+TEST_F(ImportCommand, LabelsOfAClosedSurfaceAreCarriedOver) {
+  const TetMesh heart = polyaffine::read_vtu(PROJECT_DIR "/meshes/healthy_lv.vtu", 1);
+  // Numbers of the file's own; a part of the epicardium is labelled by hand, as no shape tells it.
+  const auto is_patch = [&](const polyaffine::Vec3& x) { return x.x() > 15 && x.z() < 0; };
+  std::vector<int> labels;
+  for (Eigen::Index f = 0; f < heart.boundary().cols(); ++f) {
+    const int label = heart.boundary_labels()[f];
+    const polyaffine::Vec3 x = heart.points()(Eigen::all, heart.boundary().col(f)).rowwise().mean();
+    labels.push_back(label == 2 && is_patch(x) ? 77 : 10 * label);
+  }
+  write_vtp(in("heart.vtp"), heart, "part", labels);
+  const std::string options =
+      "--length-unit mm --size 8 --label-array part --endo-label 10 --epi-label 20 --base-label 30";
+  const ProgramRun run = import("heart.vtp", options);
+  if (run.status == 2 && run.err.find("POLYAFFINE_WITH_CGAL") != std::string::npos) GTEST_SKIP() << run.err;
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("labels \"part\" of the surface carried over"), HasSubstr("label 77"),
+                             HasSubstr("unlabelled")));
+  const TetMesh filled = written().mesh;
+  const auto area = [](const TetMesh& mesh, int label) { return polyaffine::surface_area(mesh, {label}); };
+  for (const int label : {1, 3})
+    EXPECT_NEAR(area(filled, label), area(heart, label), 0.03 * area(heart, label)) << label;
+  double patch = 0;
+  const polyaffine::Vector areas = polyaffine::triangle_areas(heart.points(), heart.boundary());
+  for (std::size_t f = 0; f < labels.size(); ++f)
+    if (labels[f] == 77) patch += areas[static_cast<Eigen::Index>(f)];
+  EXPECT_GT(patch, 500);
+  EXPECT_NEAR(area(filled, TetMesh::kUnlabelled), patch, 0.1 * patch);
+  EXPECT_NEAR(area(filled, 2), area(heart, 2) - patch, 0.05 * area(heart, 2));
+
+  const ProgramRun wrong = import("heart.vtp", "--length-unit mm --size 8 --label-array parts");
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.err, AllOf(HasSubstr("\"parts\""), HasSubstr("part")));
+}
+
 }  // namespace
