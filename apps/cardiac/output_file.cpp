@@ -6,15 +6,16 @@ namespace cardiac::app {
 
 using polyaffine::InputError;
 
-void check_output_file(const std::filesystem::path& file, const std::string& extension) {
+void check_output_file(const std::filesystem::path& file, const std::string& extension,
+                       const std::string& option) {
   if (file.extension() != extension)
-    throw InputError("--out: found \"" + file.string() + "\", expected a file name that ends in " +
+    throw InputError(option + ": found \"" + file.string() + "\", expected a file name that ends in " +
                      extension);
   const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
   if (!std::filesystem::is_directory(folder))
-    throw InputError("--out: found no folder " + folder.string() + " to write into");
+    throw InputError(option + ": found no folder " + folder.string() + " to write into");
   if (std::filesystem::is_directory(file))
-    throw InputError("--out: found the folder " + file.string() + ", expected a file name");
+    throw InputError(option + ": found the folder " + file.string() + ", expected a file name");
 }
 
 }  // namespace cardiac::app

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@
 #include <cardiac/fibres/fibre_difference.hpp>
 #include <cardiac/fibres/helix.hpp>
 #include <cardiac/heart/discretisation.hpp>
+#include <cardiac/report/segment_picture.hpp>
+#include <polyaffine/core/atomic_file.hpp>
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/mesh/surface.hpp>
 
@@ -36,7 +39,7 @@ using polyaffine::Matrix;
 using polyaffine::TetMesh;
 
 struct SegmentOptions {
-  std::filesystem::path mesh, out;
+  std::filesystem::path mesh, out, picture;
   std::string scheme, length_unit;
   LabelOptions labels;
   FibreArrays arrays;
@@ -162,6 +165,22 @@ void print_segments(const Anatomy& anatomy, const std::vector<ControlNode>& node
   if (anatomy.labels.rv_endo) std::cout << "right cavity  " << cavity_mL(*anatomy.labels.rv_endo) << " mL\n";
 }
 
+// Which of the segments between the ventricles reach from one cavity to the other.
+void print_septal(const Anatomy& anatomy) {
+  const auto touched_by = [&](int label) {
+    std::set<int> out;
+    for (std::size_t f = 0; f < anatomy.mesh.boundary_labels().size(); ++f)
+      if (anatomy.mesh.boundary_labels()[f] == label)
+        out.insert(anatomy.segment[anatomy.mesh.boundary_tets()[f]]);
+    return out;
+  };
+  const std::set<int> left = touched_by(anatomy.labels.endo), right = touched_by(*anatomy.labels.rv_endo);
+  std::cout << "touching both endocardia  segments";
+  for (const int s : left)
+    if (right.contains(s)) std::cout << ' ' << s;
+  std::cout << '\n';
+}
+
 void print_comparison(const Anatomy& anatomy, const FibreComparison& given) {
   std::cout << "angle between the file's fibres (" << given.description << ") and the rule's, deg\n"
             << "region           volume_mL     mean   median     95 %\n"
@@ -175,6 +194,7 @@ void print_comparison(const Anatomy& anatomy, const FibreComparison& given) {
 void segment(const SegmentOptions& o) {
   const Protocol protocol = as_protocol(o);
   check_output_file(o.out, ".vtu");
+  if (!o.picture.empty()) check_output_file(o.picture, ".svg", "--picture");
   std::vector<std::string> warnings;
   const HeartMesh heart = load_heart(protocol, warnings);
   const Anatomy anatomy = anatomy_of(heart, protocol);
@@ -187,8 +207,13 @@ void segment(const SegmentOptions& o) {
         compare_fibres(anatomy.mesh, *anatomy.coordinates, FileFibres(heart.file, o.mesh.string()), o.angles);
   write_fields(o, anatomy, nodes, given);
   print_segments(anatomy, nodes);
+  if (anatomy.labels.rv_endo) print_septal(anatomy);
   if (given) print_comparison(anatomy, *given);
   std::cout << "written " << o.out.string() << " (lengths in mm)\n";
+  if (o.picture.empty()) return;
+  polyaffine::write_atomically(o.picture,
+                               segment_picture_svg(anatomy.mesh, *anatomy.coordinates, anatomy.segment));
+  std::cout << "written " << o.picture.string() << '\n';
 }
 
 }  // namespace
@@ -202,6 +227,7 @@ void add_segment_command(CLI::App& app) {
   command->add_option("--length-unit", o->length_unit, "length unit of the mesh: mm, cm, m or um")
       ->required();
   command->add_option("--out", o->out, "file to write, .vtu, lengths in mm")->required();
+  command->add_option("--picture", o->picture, "also draw the segments from three sides, .svg");
   add_label_options(*command, o->labels);
   add_fibre_options(*command, o->arrays);
   command->add_option("--anterior", o->anterior, "direction from the long axis to the anterior wall")

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include <cardiac/report/wall_cut.hpp>
+#include <cardiac/report/wall_drawing.hpp>
 
 namespace cardiac {
 
@@ -16,12 +15,6 @@ struct WallPanel {
   std::vector<std::optional<double>> values;  ///< by segment; what is missing is drawn grey
 };
 
-/// A parallel projection: `towards_viewer` points out of the picture, `up` (not parallel to it) upwards.
-struct WallView {
-  polyaffine::Vec3 towards_viewer, up;
-  std::string left, right;  ///< what lies on either side
-};
-
 struct WallPicture {
   std::string title, unit, low_meaning, high_meaning;
   WallCut cut;
@@ -30,9 +23,8 @@ struct WallPicture {
   std::vector<WallPanel> panels;
 };
 
-/// The panels side by side at one scale, as SVG: faces coloured by the value of their segment and shaded by
-/// how they are turned, borders of segments and of the section drawn darker, and a colour bar. Faces turned
-/// away are left out, the others painted from the farthest to the nearest.
+/// The panels side by side at one scale, as SVG: walls (draw_wall) coloured by the value of their segments,
+/// and a colour bar.
 std::string wall_picture_svg(const WallPicture& picture);
 
 }  // namespace cardiac

@@ -120,6 +120,27 @@ TEST_F(SegmentCommand, DirectionsTurnTheSegments) {
   EXPECT_LE(differ, result.mesh.num_tets() / 100);
 }
 
+TEST_F(SegmentCommand, ThePictureNumbersTheSegmentsThatAreSeen) {
+  const auto svg = folder_.path / "segments.svg";
+  const ProgramRun run = run_program("segment " PROJECT_DIR
+                                     "/meshes/healthy_biv_coarse.vtu --scheme aha29 --length-unit mm --out " +
+                                     file().string() + " --picture " + svg.string());
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("touching both endocardia  segments 2 3 8 9 14\n"));
+  const std::string text = whole_file(svg);
+  std::multiset<int> numbers;
+  for (std::size_t at = text.find("<text"); at != std::string::npos; at = text.find("<text", at + 1)) {
+    const std::string content = text.substr(text.find('>', at) + 1, 2);
+    if (std::isdigit(static_cast<unsigned char>(content[0]))) numbers.insert(std::stoi(content));
+  }
+  // The section shows the middle ring of either ventricle, the septum only there; the free walls are seen
+  // from outside.
+  for (const int s : {7, 8, 9, 10, 11, 12, 22, 23, 24, 25}) EXPECT_TRUE(numbers.contains(s)) << s;
+  for (const int s : {1, 4, 13, 15, 17, 18, 21, 29}) EXPECT_TRUE(numbers.contains(s)) << s;
+  EXPECT_LE(numbers.count(8), 2);
+  EXPECT_EQ(segment("--scheme aha17 --length-unit mm --picture segments.png").status, 2);
+}
+
 TEST_F(SegmentCommand, WrongInputIsStatusTwoAndTouchesNothing) {
   std::ofstream(file()) << "earlier";
   const std::string sound = "--scheme aha17 --length-unit mm";
