@@ -78,8 +78,9 @@ void BiventricularFrames::add_right(const CoordinateSample& at,
       f.weight_gradient =
           share * hat * factor_gradient + factor * (slope * hat * at.grad_u + share * hat_gradient);
       if (row.nodes == 1) {
-        f.xi = (X - apex_) / unit;
-        f.xi_gradient = polyaffine::Mat3::Identity() / unit;
+        const polyaffine::Mat3 axes = cap_axes(coordinates());
+        f.xi = axes.transpose() * (X - apex_) / unit;
+        f.xi_gradient = axes.transpose() / unit;
       } else {
         f.xi = Vec3(length_mm_ * (at.u - row.u), round * (right.psi - row.node_psi(j)),
                     layout().right_thickness * (right.t - 0.5)) /

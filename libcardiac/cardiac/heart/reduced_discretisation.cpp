@@ -86,8 +86,23 @@ struct CandidatePoints {
   FaceRule face;
 };
 
+// Corners (columns, barycentric in a tet) in an order that belongs to the heart, not to the file: along a
+// line oblique to its axes.
+template <class Corners>
+Corners in_order_of_heart(const VentricularCoordinates& heart, int tet, const Corners& corners) {
+  const Vec3 along = heart.axis() + 0.618 * heart.anterior() + 0.382 * heart.axis().cross(heart.anterior());
+  std::vector<std::pair<double, Eigen::Index>> order;
+  for (Eigen::Index k = 0; k < corners.cols(); ++k)
+    order.emplace_back(along.dot(heart.position(tet, corners.col(k))), k);
+  std::ranges::sort(order);
+  Corners out = corners;
+  for (std::size_t k = 0; k < order.size(); ++k)
+    out.col(static_cast<Eigen::Index>(k)) = corners.col(order[k].second);
+  return out;
+}
+
 // Points that see the cells of the tents as they are, not to the nearest element.
-CandidatePoints tent_candidates(const LagrangeBasis& geometry, const SegmentFrames& frames) {
+CandidatePoints tent_candidates(const VentricularCoordinates& heart, const SegmentFrames& frames) {
   const auto crossed = [&frames](int tet, const auto& corners) {
     const auto cell = [&](Eigen::Index k) {
       const Vec4 inside = (1 - kDrawnIn) * corners.col(k) + kDrawnIn * corners.rowwise().mean();
@@ -99,17 +114,26 @@ CandidatePoints tent_candidates(const LagrangeBasis& geometry, const SegmentFram
     return false;
   };
   CandidatePoints out;
-  out.wall = geometry.wall_points(
-      [&, whole = polyaffine::tet_rule(kCandidateDegree), part = polyaffine::tet_rule(kPartDegree)](int tet) {
-        return polyaffine::split_rule(
-            whole, part, [&](const Eigen::Matrix4d& corners) { return crossed(tet, corners); }, kWallCuts);
-      });
-  out.face = [crossed, whole = polyaffine::triangle_rule(kCandidateDegree),
+  out.wall = heart.space().wall_points([&, whole = polyaffine::tet_rule(kCandidateDegree),
+                                        part = polyaffine::tet_rule(kPartDegree)](int tet) {
+    const Eigen::Matrix4d order = in_order_of_heart(heart, tet, Eigen::Matrix4d::Identity().eval());
+    polyaffine::TetRule rule = polyaffine::split_rule(
+        whole, part, [&](const Eigen::Matrix4d& corners) { return crossed(tet, (order * corners).eval()); },
+        kWallCuts);
+    rule.barycentric = (order * rule.barycentric).eval();
+    return rule;
+  });
+  out.face = [crossed, &heart, whole = polyaffine::triangle_rule(kCandidateDegree),
               part = polyaffine::triangle_rule(kPartDegree)](int tet,
                                                              const LagrangeBasis::FaceCorners& face) {
-    return polyaffine::split_rule(
-        whole, part, [&](const polyaffine::Mat3& corners) { return crossed(tet, (face * corners).eval()); },
+    const LagrangeBasis::FaceCorners in_order = in_order_of_heart(heart, tet, face);
+    const polyaffine::Mat3 order = face.transpose() * in_order;  // corners of a face are unit vectors
+    polyaffine::TriangleRule rule = polyaffine::split_rule(
+        whole, part,
+        [&](const polyaffine::Mat3& corners) { return crossed(tet, (in_order * corners).eval()); },
         kSurfaceCuts);
+    rule.barycentric = (order * rule.barycentric).eval();
+    return rule;
   };
   return out;
 }
@@ -234,7 +258,7 @@ Discretisation reduced_discretisation(const Anatomy& anatomy, const Protocol& pr
       sigmoid ? CandidatePoints{geometry.wall_points(kCandidateDegree),
                                 [rule = polyaffine::triangle_rule(kCandidateDegree)](
                                     int, const LagrangeBasis::FaceCorners&) { return rule; }}
-              : tent_candidates(geometry, *out.frames);
+              : tent_candidates(*anatomy.coordinates, *out.frames);
   const WallPoints& candidates = from.wall;
   const Cells cells = sigmoid ? region_cells(anatomy, out, candidates) : tent_cells(*out.frames, candidates);
   out.points =

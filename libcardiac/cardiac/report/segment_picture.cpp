@@ -107,7 +107,7 @@ Rgb segment_colour(int segment) {
   if (segment < kAhaSegments) {
     const double turn = aha_centre_angle(segment) / (2 * polyaffine::kPi);
     const double hue = 0.62 + 0.26 * std::sin(2 * polyaffine::kPi * turn + 0.4);
-    return from_hsl(hue, kSaturation, 0.78 - 0.06 * aha_ring(segment) + (segment % 2 == 0 ? 0.06 : 0.0));
+    return from_hsl(hue, kSaturation, 0.78 - 0.05 * aha_ring(segment) + (segment % 2 == 0 ? 0.06 : 0.0));
   }
   const int k = segment - kAhaSegments - 1;
   return from_hsl(0.02 + 0.05 * (k % 4), kSaturation, 0.62 + 0.05 * (k / 4) + (k % 2 == 0 ? 0.05 : 0.0));

@@ -51,16 +51,16 @@ void drop_collapsed(MeshData& data) {
 /// Leaves out points of no triangle.
 void drop_unused_points(MeshData& data) {
   std::vector<int> number(data.points.cols(), -1), kept;
-  for (int& p : data.triangles.reshaped()) {
-    if (number[p] < 0) {
+  for (const int p : data.triangles.reshaped()) number[p] = 0;
+  for (std::size_t p = 0; p < number.size(); ++p)
+    if (number[p] == 0) {
       number[p] = static_cast<int>(kept.size());
-      kept.push_back(p);
+      kept.push_back(static_cast<int>(p));
     }
-    p = number[p];
-  }
   const auto unused = number.size() - kept.size();
   if (unused == 0) return;
   data.notes.push_back(std::to_string(unused) + " points of no triangle left out");
+  for (int& p : data.triangles.reshaped()) p = number[p];
   data.points = Points(data.points(Eigen::all, kept));
   for (auto& [name, field] : data.point_fields) field = Matrix(field(Eigen::all, kept));
 }

@@ -126,7 +126,7 @@ TEST_F(SegmentCommand, ThePictureNumbersTheSegmentsThatAreSeen) {
                                      "/meshes/healthy_biv_coarse.vtu --scheme aha29 --length-unit mm --out " +
                                      file().string() + " --picture " + svg.string());
   ASSERT_EQ(run.status, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("touching both endocardia  segments 2 3 8 9 14\n"));
+  EXPECT_THAT(run.out, HasSubstr("touching both endocardia  segments 2 3 8 9 14"));
   const std::string text = whole_file(svg);
   std::multiset<int> numbers;
   for (std::size_t at = text.find("<text"); at != std::string::npos; at = text.find("<text", at + 1)) {

@@ -22,6 +22,8 @@ MeshData surface() {
   MeshData out = testing_io::data_of(testing::labelled_cube(3));
   out.source = "box.stl";
   out.tets.resize(4, 0);
+  make_closed_surface(out);
+  out.notes.clear();
   return out;
 }
 
@@ -46,6 +48,15 @@ TEST(ClosedSurface, AGoodOneStays) {
   make_closed_surface(data);
   EXPECT_EQ(data.triangles.cols(), surface().triangles.cols());
   EXPECT_THAT(data.notes, IsEmpty());
+  EXPECT_NEAR(inside(data), 1, 1e-12);
+}
+
+TEST(ClosedSurface, PointsOfNoTriangleAreLeftOut) {
+  MeshData data = testing_io::data_of(testing::labelled_cube(3));  // with the points inside
+  data.tets.resize(4, 0);
+  make_closed_surface(data);
+  EXPECT_EQ(data.points.cols(), 64 - 8);
+  EXPECT_THAT(data.notes, Contains(HasSubstr("8 points of no triangle")));
   EXPECT_NEAR(inside(data), 1, 1e-12);
 }
 
