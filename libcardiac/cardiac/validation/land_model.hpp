@@ -12,7 +12,7 @@ struct LandSolution {
   int load_steps = 0, newton_iterations = 0;  ///< of the whole load path
   std::vector<double> values;                 ///< see the functions below
   double largest_dilatation = 0;              ///< largest |mean det F − 1| of an element
-  double cpu_s = 0;                           ///< user and system time from the mesh to the values
+  double cpu_s = 0;  ///< user and system time of one thread from the mesh to the values
   double wall_s = 0;
 };
 
