@@ -236,8 +236,9 @@ void VentricularCoordinates::solve_apicobasal(const polyaffine::TetMesh& mesh, c
   for (int t = 0; t < mesh.num_tets(); ++t) {
     const CoordinateSample at = sample(t, Vec4::Constant(0.25));
     if (at.w > 0.5) continue;
-    volume += mesh.tet_volume(t);
-    flux += mesh.tet_volume(t) * at.grad_u.norm();
+    const double share = mesh.tet_volume(t);
+    volume += share;
+    flux += share * at.grad_u.norm();
   }
   arc_length_ = volume / flux;
 }

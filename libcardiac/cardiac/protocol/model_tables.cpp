@@ -91,7 +91,7 @@ Table reduction_table() {
                 "ltt, ctt, ttt; segment_bilinear}, the latter with {ll, lc, cc} besides where a [[region]] "
                 "differs from the rest: its bulge bends the wall along l and c",
             .source =
-                "cardiac bench, 17 nodes, without a scar: 2 to 4 and about 2 per cent of displacement error"})
+                "cardiac bench, 17 nodes, without a scar: 2 to 4 and 2 to 3 per cent of displacement error"})
       .key("weights", &Reduction::weights,
            {.meaning =
                 "influence of a control node: tents (piecewise linear in ventricular coordinates) or sigmoid "
