@@ -68,7 +68,7 @@ HeartMesh read(const ImportOptions& o) {
   return read_heart(o.file, o.labels.surface_file, options);
 }
 
-void write(const ImportOptions& o, const HeartMesh& heart) {
+void write(const ImportOptions& o, [[maybe_unused]] const HeartMesh& heart) {
 #ifdef CARDIAC_WITH_VTK
   polyaffine::write_vtu(o.out, heart.file.mesh,
                         {.point_fields = heart.file.point_fields, .cell_fields = heart.file.cell_fields});

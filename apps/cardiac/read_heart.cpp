@@ -9,6 +9,8 @@
 
 #ifdef CARDIAC_WITH_VTK
 #include <polyaffine/vtk/read_data.hpp>
+#else
+#include <polyaffine/mesh_io/vtu.hpp>
 #endif
 
 namespace cardiac::app {
@@ -63,7 +65,9 @@ MeshData read_any_mesh(const std::filesystem::path& file) {
 #ifdef CARDIAC_WITH_VTK
   return polyaffine::read_vtk_data(file);
 #else
-  throw InputError(file.string() + ": this build reads no VTK files (CMake option POLYAFFINE_WITH_VTK)");
+  if (extension == ".vtu") return polyaffine::read_vtu_data(file);
+  throw InputError(file.string() +
+                   ": this build reads of VTK's files only .vtu (CMake option POLYAFFINE_WITH_VTK)");
 #endif
 }
 

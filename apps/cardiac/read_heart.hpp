@@ -18,7 +18,8 @@ protocol::LengthUnit length_unit(const std::string& word);
 /// Labels as words of a command line: numbers or names.
 std::vector<SurfaceLabel> surface_labels(const std::vector<std::string>& words);
 
-/// Reads any mesh file by its extension. Throws InputError as the readers, and when this build lacks VTK.
+/// Reads any mesh file by its extension. Throws InputError as the readers, and when this build lacks VTK
+/// and the file is none of .vtu.
 polyaffine::MeshData read_any_mesh(const std::filesystem::path& file);
 
 /// Reads a heart from a file of tetrahedra and, unless it is empty, a second file with its labelled

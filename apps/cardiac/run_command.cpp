@@ -181,6 +181,11 @@ void run(RunOptions options) {
   if (!options.method.empty()) options.overrides.push_back("reduction.method=" + options.method);
   Protocol protocol = load_protocol(options.protocol, options.overrides);
   check_mesh_file(protocol);
+  if (protocol.output.mesh_series && !writes_mesh_series()) {
+    protocol.output.mesh_series = false;
+    protocol.warnings.push_back(
+        "output.mesh_series: this build writes no .vtu files (CMake option POLYAFFINE_WITH_VTK): left out");
+  }
   const std::vector<PlanItem> items = plan(protocol, options.verify);
   const auto anatomy = std::make_shared<const Anatomy>(load_anatomy(protocol, protocol.warnings));
   if (!options.quiet) print_warnings(protocol.warnings);

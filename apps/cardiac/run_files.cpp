@@ -23,6 +23,10 @@ std::string frame_name(std::size_t k) {
 
 }  // namespace
 
+bool writes_mesh_series() {
+  return true;
+}
+
 void write_mesh_series(const Ventricle& ventricle, const Protocol& protocol, const HeartPath& path,
                        const BeatResult& result, const std::filesystem::path& out) {
   const Anatomy& anatomy = *ventricle.anatomy;
@@ -57,6 +61,10 @@ void write_mesh_series(const Ventricle& ventricle, const Protocol& protocol, con
   polyaffine::write_pvd(out / "heart.pvd", times, files);
 }
 #else
+bool writes_mesh_series() {
+  return false;
+}
+
 void write_mesh_series(const Ventricle&, const Protocol&, const HeartPath&, const BeatResult&,
                        const std::filesystem::path&) {
   throw polyaffine::InputError(

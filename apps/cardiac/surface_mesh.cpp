@@ -48,8 +48,8 @@ void carry_labels(const polyaffine::MeshData& surface, const std::string& wanted
 }  // namespace
 #endif
 
-HeartMesh fill_surface(const std::filesystem::path& file, const HeartMeshOptions& options,
-                       std::optional<double> size_mm) {
+HeartMesh fill_surface(const std::filesystem::path& file, [[maybe_unused]] const HeartMeshOptions& options,
+                       [[maybe_unused]] std::optional<double> size_mm) {
 #ifdef CARDIAC_WITH_CGAL
   polyaffine::MeshData data = read_any_mesh(file);
   data.points *= options.mm_per_unit;

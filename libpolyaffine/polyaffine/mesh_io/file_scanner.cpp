@@ -134,12 +134,13 @@ std::string_view FileScanner::bytes(std::size_t size, const char* expected) {
   return std::string_view(text_).substr(last_, size);
 }
 
-void FileScanner::skip_past(std::string_view text) {
+std::string_view FileScanner::up_to(std::string_view text) {
   last_ = position_;
   const std::size_t at = text_.find(text, position_);
   if (at == std::string::npos)
     fail("found the end of the file, expected " + std::string(text) + " (is the file cut off?)");
   position_ = at + text.size();
+  return std::string_view(text_).substr(last_, at - last_);
 }
 
 }  // namespace polyaffine

@@ -39,8 +39,11 @@ class FileScanner {
     std::memcpy(&value, bytes(sizeof value, expected).data(), sizeof value);
     return value;
   }
-  /// Goes behind the next occurrence of a text.
-  void skip_past(std::string_view text);
+  /// Goes behind the next occurrence of a text; returned is what stands before it.
+  std::string_view up_to(std::string_view text);
+  std::size_t position() const { return position_; }
+  /// Goes to a place, which a message then names.
+  void go_to(std::size_t position) { position_ = last_ = position; }
   std::size_t size() const { return text_.size(); }
   std::string_view text() const { return text_; }
 

@@ -80,7 +80,7 @@ MeshData read_gmsh(const std::filesystem::path& file) {
     } else if (section == "$ElementData") {
       of_elements.push_back(read_table(in));
     } else {
-      in.scan.skip_past(end);
+      in.scan.up_to(end);
       continue;
     }
     in.expect(end);

@@ -1,0 +1,138 @@
+#include "polyaffine/mesh_io/vtu.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include <polyaffine/mesh_io/vtk_xml.hpp>
+
+namespace polyaffine {
+namespace {
+
+using vtk_xml::DataArray;
+using vtk_xml::Document;
+
+// Numbers of VTK's cell types.
+enum CellType {
+  kVertex = 1,
+  kPolyVertex = 2,
+  kLine = 3,
+  kPolyLine = 4,
+  kTriangle = 5,
+  kTet = 10,
+  kQuadraticEdge = 21,
+  kQuadraticTriangle = 22,
+  kQuadraticTet = 24
+};
+
+std::size_t whole(Document& document, const std::string& text, const char* what) {
+  std::size_t out = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
+  if (error != std::errc() || end != text.data() + text.size() || out > std::numeric_limits<int>::max() / 4)
+    document.fail(0, std::string("found ") + what + "=\"" + text.substr(0, 30) + "\", expected a number");
+  return out;
+}
+
+/// The numbers in the file of the cells of each kind.
+struct CellNumbers {
+  std::vector<std::size_t> tets, triangles;
+};
+
+// Corners from the points of a cell, which are numbers from 0.
+std::vector<int> corners(Document& document, std::span<const double> of, const std::string& cell,
+                         std::size_t wanted, Eigen::Index points) {
+  if (of.size() < wanted)
+    document.fail(
+        0, cell + "found " + std::to_string(of.size()) + " points, expected " + std::to_string(wanted));
+  std::vector<int> out;
+  for (const double p : of) {
+    if (!(p >= 0 && p < static_cast<double>(points) && p == std::floor(p)))
+      document.fail(
+          0, cell + "found the point " + std::to_string(p) + ", expected 0 to " + std::to_string(points - 1));
+    out.push_back(static_cast<int>(p));
+  }
+  return out;
+}
+
+CellNumbers read_cells(Document& document, std::size_t count, MeshData& data) {
+  const auto types = values(document, document.array("Cells", "types"), count);
+  const auto ends = values(document, document.array("Cells", "offsets"), count);
+  double begin = 0;
+  for (const double end : ends) {
+    if (!(end >= begin && end < std::numeric_limits<int>::max() && end == std::floor(end)))
+      document.fail(document.array("Cells", "offsets").position,
+                    "found an offset " + std::to_string(end) + ", expected whole numbers that grow");
+    begin = end;
+  }
+  const auto points =
+      values(document, document.array("Cells", "connectivity"), static_cast<std::size_t>(ends.back()));
+  CellNumbers numbers;
+  CellList tets{4}, triangles{3};
+  std::size_t quadratic_tets = 0, from = 0;
+  for (std::size_t c = 0; c < count; ++c) {
+    const auto type = static_cast<int>(types[c]);
+    const auto to = static_cast<std::size_t>(ends[c]);
+    const std::span<const double> of(points.data() + from, to - from);
+    from = to;
+    if (type == kVertex || type == kPolyVertex || type == kLine || type == kPolyLine ||
+        type == kQuadraticEdge)
+      continue;
+    const auto cell = "cell " + std::to_string(c) + " (counted from 0): ";
+    const bool tet = type == kTet || type == kQuadraticTet;
+    if (!tet && type != kTriangle && type != kQuadraticTriangle)
+      document.fail(0, cell + "found VTK's cell type " + std::to_string(type) +
+                           ", expected 10 (tetrahedron) or 5 (triangle), or 24 or 22 (quadratic)");
+    (tet ? tets : triangles).add(corners(document, of, cell, tet ? 4 : 3, data.points.cols()));
+    (tet ? numbers.tets : numbers.triangles).push_back(c);
+    quadratic_tets += type == kQuadraticTet;
+  }
+  data.tets = tets.matrix();
+  data.triangles = triangles.matrix();
+  note_quadratic(data, quadratic_tets);
+  return numbers;
+}
+
+Matrix table(Document& document, const DataArray& array, std::size_t tuples) {
+  const std::size_t components =
+      whole(document, array.attribute("NumberOfComponents", "1"), "NumberOfComponents");
+  const auto all = values(document, array, components * tuples);
+  return Eigen::Map<const Matrix>(all.data(), static_cast<Eigen::Index>(components),
+                                  static_cast<Eigen::Index>(tuples));
+}
+
+Matrix chosen(const Matrix& of, const std::vector<std::size_t>& columns) {
+  Matrix out(of.rows(), columns.size());
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    out.col(static_cast<Eigen::Index>(k)) = of.col(static_cast<Eigen::Index>(columns[k]));
+  return out;
+}
+
+}  // namespace
+
+MeshData read_vtu_data(const std::filesystem::path& file) {
+  Document document(file);
+  const std::size_t points = whole(document, document.piece["NumberOfPoints"], "NumberOfPoints");
+  const std::size_t cells = whole(document, document.piece["NumberOfCells"], "NumberOfCells");
+  if (points == 0 || cells == 0)
+    document.fail(0, "found no points or no cells, expected a mesh (unstructured grid)");
+  MeshData data;
+  data.source = file;
+  const DataArray& coordinates = document.array("Points", "");
+  if (coordinates.attribute("NumberOfComponents") != "3")
+    document.fail(coordinates.position, "found points without three coordinates");
+  data.points = table(document, coordinates, points);
+  const CellNumbers numbers = read_cells(document, cells, data);
+  for (const DataArray& array : document.arrays) {
+    const std::string name = array.attribute("Name");
+    if (name.empty() || !has_numbers(array)) continue;
+    if (array.section == "PointData") data.point_fields[name] = table(document, array, points);
+    if (array.section != "CellData") continue;
+    const Matrix all = table(document, array, cells);
+    data.tet_fields[name] = chosen(all, numbers.tets);
+    data.triangle_fields[name] = chosen(all, numbers.triangles);
+  }
+  return data;
+}
+
+}  // namespace polyaffine
