@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What a scene costs: processor time, time, peak memory (all processes of the run) and libraries loaded, as a
-# table; and the start of the program, whose median of 20 must stay under 50 ms:
+# What a scene costs with nothing cached: processor time, time, peak memory (of the largest process) and
+# libraries loaded, as a table; and the start of the program, whose median of 20 must stay under 50 ms of processor time:
 #   bash tests/footprint.sh [PROGRAM]
 set -uo pipefail
 program=$(realpath "${1:-build/release/bin/cardiac}") || exit 2
@@ -19,7 +19,7 @@ scene() {
   local name=$1
   shift
   local status=0
-  /usr/bin/time -o "$folder/cost" -f '%U %S %e %M' "$program" "$@" --out "$folder/out" >"$folder/log" 2>&1 || status=$?
+  XDG_CACHE_HOME=$(mktemp -d -p "$folder") /usr/bin/time -o "$folder/cost" -f '%U %S %e %M' "$program" "$@" --out "$folder/out" >"$folder/log" 2>&1 || status=$?
   if ((status)); then
     cat "$folder/log" >&2
     echo "| $name | not in this build |"
@@ -42,15 +42,12 @@ scene "20 beats" run protocols/healthy_lv.toml "${tables[@]}" --set time.max_bea
   --set time.limit_cycle_tolerance_percent=1e-12
 scene "one beat with figures and meshes" run protocols/healthy_lv.toml --quiet --set time.max_beats=1
 
-starts=()
-for _ in {1..20}; do
-  begin=$EPOCHREALTIME
-  "$program" --help >/dev/null
-  end=$EPOCHREALTIME
-  starts+=($((${end/[.,]/} - ${begin/[.,]/})))
-done
-median=$(printf '%s\n' "${starts[@]}" | sort -n | sed -n 10p)
+# In milliseconds; on a busy machine only processor time tells.
+TIMEFORMAT='%R %U %S'
+starts=$(for _ in {1..20}; do { time "$program" --help >/dev/null; } 2>&1; done |
+  awk '{ print 1000 * ($2 + $3), 1000 * $1 }')
+median() { awk -v column="$1" '{ print $column }' <<<"$starts" | sort -n | sed -n 10p; }
 echo
-awk -v us="$median" 'BEGIN { printf "start (--help), median of 20: %.1f ms\n", us / 1000 }'
-((median < 50000)) || failed=1
+echo "start (--help), median of 20: $(median 1) ms of processor time, $(median 2) ms"
+awk -v ms="$(median 1)" 'BEGIN { exit ms >= 50 }' || failed=1
 exit "$failed"
