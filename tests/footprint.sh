@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # What a scene costs with nothing cached: processor time, time, peak memory (of the largest process) and
-# libraries loaded, as a table; and the start of the program, whose median of 20 must stay under 50 ms of processor time:
+# libraries loaded, as a table; and the start of the program, whose median of 20 must stay under 50 ms of
+# processor time:
 #   bash tests/footprint.sh [PROGRAM]
 set -uo pipefail
 program=$(realpath "${1:-build/release/bin/cardiac}") || exit 2
@@ -19,7 +20,8 @@ scene() {
   local name=$1
   shift
   local status=0
-  XDG_CACHE_HOME=$(mktemp -d -p "$folder") /usr/bin/time -o "$folder/cost" -f '%U %S %e %M' "$program" "$@" --out "$folder/out" >"$folder/log" 2>&1 || status=$?
+  XDG_CACHE_HOME=$(mktemp -d -p "$folder") /usr/bin/time -o "$folder/cost" -f "%U %S %e %M" \
+    "$program" "$@" --out "$folder/out" >"$folder/log" 2>&1 || status=$?
   if ((status)); then
     cat "$folder/log" >&2
     echo "| $name | not in this build |"
