@@ -69,6 +69,8 @@ struct Model {
     LoadOptions options;
     options.largest_step = 0.25;
     options.newton.tolerance = 1e-6;
+    options.newton.dilatation_tolerance = 1e-7;
+    options.newton.contraction = 0.25;
     options.path_slack = 1e5;  // on the way there a tenth of the forces: only the last state counts
     c = Vector::Zero(wall->table().num_unknowns());
     const LoadReport report = load_stepping(problem, *system, c, options);

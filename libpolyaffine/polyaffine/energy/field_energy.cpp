@@ -152,7 +152,8 @@ EnergyValue FieldEnergy::evaluate(const Motion& motion) const {
       [&](int k, int slot) {
         const PackedBlock& block = packed_[k];
         const Vector pressure = point_pressure(kin.p, k);
-        std::vector<Mat3Pack> P(block.num_packs());
+        thread_local std::vector<Mat3Pack> P;
+        P.resize(block.num_packs());
         Pack W = broadcast(0);
         PackResponse r;
         for (int pack = 0; pack < block.num_packs(); ++pack) {
@@ -219,7 +220,8 @@ void FieldEnergy::add_tangent(const Motion& motion, LinearSystem& system, double
       [&](int k, int slot) {
         const PackedBlock& block = packed_[k];
         const Vector pressure = point_pressure(kin.p, k);
-        std::vector<PackResponse> responses(block.num_packs());
+        thread_local std::vector<PackResponse> responses;
+        responses.resize(block.num_packs());
         for (int pack = 0; pack < block.num_packs(); ++pack) {
           respond(kin, used, k, pressure, pack, true, rate_factor, responses[pack]);
           mirror(responses[pack]);

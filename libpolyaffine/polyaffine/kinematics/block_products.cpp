@@ -17,12 +17,14 @@ constexpr int kChunkPacks =
 // its kTileRows packs side by side. Each panel is multiplied with the functions before its own last column.
 class TileProduct {
  public:
-  TileProduct(int row_packs, int columns)
-      : panels_((row_packs + kTileRows - 1) / kTileRows),
-        column_tiles_((columns + kTileColumns - 1) / kTileColumns),
-        last_(panels_, 0),
-        offset_(row_packs),
-        tiles_(static_cast<std::size_t>(panels_) * column_tiles_ * kTile, 0.0) {}
+  // Starts a product; memory of former ones is used again.
+  void start(int row_packs, int columns) {
+    panels_ = (row_packs + kTileRows - 1) / kTileRows;
+    column_tiles_ = (columns + kTileColumns - 1) / kTileColumns;
+    last_.assign(panels_, 0);
+    offset_.resize(row_packs);
+    tiles_.assign(static_cast<std::size_t>(panels_) * column_tiles_ * kTile, 0.0);
+  }
 
   void need_column(int row_pack, int column) {
     int& last = last_[row_pack / kTileRows];
@@ -45,10 +47,11 @@ class TileProduct {
                       tiles_.data() + (static_cast<std::ptrdiff_t>(panel) * column_tiles_ + tile) * kTile);
   }
 
-  double entry(int row_pack, int lane, int column) const {
+  // The kLanes numbers of C of a row pack.
+  const double* entries(int row_pack, int column) const {
     const int panel = row_pack / kTileRows, place = row_pack % kTileRows;
     const std::ptrdiff_t tile = static_cast<std::ptrdiff_t>(panel) * column_tiles_ + column / kTileColumns;
-    return tiles_[tile * kTile + ((column % kTileColumns) * kTileRows + place) * kLanes + lane];
+    return tiles_.data() + tile * kTile + ((column % kTileColumns) * kTileRows + place) * kLanes;
   }
 
  private:
@@ -77,10 +80,16 @@ class TileProduct {
       for (int a = 0; a < kTileRows; ++a) store(C + (b * kTileRows + a) * kLanes, c[b][a]);
   }
 
-  int panels_, column_tiles_, depth_ = 0;
+  int panels_ = 0, column_tiles_ = 0, depth_ = 0;
   std::vector<int> last_, offset_;
   std::vector<double> W_, tiles_;
 };
+
+// One a thread: blocks are many and small.
+TileProduct& workspace() {
+  thread_local TileProduct product;
+  return product;
+}
 
 struct Component {
   int i, j;
@@ -149,7 +158,8 @@ void add_groups(const PackedBlock& block, const Group& g, const Group& h, int ro
     for (int j = same ? i : 0; j < 3; ++j) components.push_back({i, j});
   const int packs = g.padded / kLanes;
   const auto symmetric = [&](const Component& c) { return same && c.i == c.j; };
-  TileProduct product(packs * static_cast<int>(components.size()), h.padded);
+  TileProduct& product = workspace();
+  product.start(packs * static_cast<int>(components.size()), h.padded);
   for (std::size_t s = 0; s < components.size(); ++s)
     for (int a = 0; a < packs; ++a)
       product.need_column(static_cast<int>(s) * packs + a,
@@ -171,10 +181,13 @@ void add_groups(const PackedBlock& block, const Group& g, const Group& h, int ro
   for (std::size_t s = 0; s < components.size(); ++s) {
     const auto [i, j] = components[s];
     for (int b = 0; b < h.num_functions; ++b)
-      for (int a = symmetric(components[s]) ? b : 0; a < g.num_functions; ++a) {
-        const double v = product.entry(static_cast<int>(s) * packs + a / kLanes, a % kLanes, b);
-        K(row0 + 3 * a + i, col0 + 3 * b + j) = v;
-        K(col0 + 3 * b + j, row0 + 3 * a + i) = v;
+      for (int pack = symmetric(components[s]) ? b / kLanes : 0; pack < packs; ++pack) {
+        const double* v = product.entries(static_cast<int>(s) * packs + pack, b);
+        const int first = kLanes * pack, last = std::min(first + kLanes, g.num_functions);
+        for (int a = symmetric(components[s]) ? std::max(first, b) : first; a < last; ++a) {
+          K(row0 + 3 * a + i, col0 + 3 * b + j) = v[a - first];
+          K(col0 + 3 * b + j, row0 + 3 * a + i) = v[a - first];
+        }
       }
   }
 }
@@ -203,7 +216,8 @@ void block_force_rows(const PackedBlock& block, const Mat3Pack* S, const Matrix&
   padded.topLeftCorner(n, values.cols()) = values;
   int first = 0;
   for (const auto& g : block.groups()) {
-    TileProduct product(3 * packs, g.padded);
+    TileProduct& product = workspace();
+    product.start(3 * packs, g.padded);
     for (int s = 0; s < 3 * packs; ++s) product.need_column(s, g.num_functions - 1);
     Pack Y[12];
     for (int begin = 0; begin < block.num_packs(); begin += kChunkPacks) {
@@ -228,7 +242,7 @@ void block_force_rows(const PackedBlock& block, const Mat3Pack* S, const Matrix&
     for (int a = 0; a < g.num_functions; ++a)
       for (int i = 0; i < 3; ++i)
         for (int b = 0; b < n; ++b)
-          rows(b, first + 3 * a + i) = product.entry(i * packs + b / kLanes, b % kLanes, a);
+          rows(b, first + 3 * a + i) = product.entries(i * packs + b / kLanes, a)[b % kLanes];
     first += 3 * g.num_functions;
   }
 }

@@ -78,11 +78,11 @@ class Equations {
     });
   }
 
-  MixedState step(const MixedState& at, const Residual& r, Vector direction) const {
+  MixedState step(const Vector& c, const Residual& r, Vector direction) const {
     MixedState out{std::move(direction), r.pressure};
     each_term([&](std::size_t k, const PotentialTerm& term, double) {
       if (r.pressure[k].size() > 0)
-        out.pressures[k] += term.energy->penalty_pressure(term.energy->volume_change(at.c, out.c));
+        out.pressures[k] += term.energy->penalty_pressure(term.energy->volume_change(c, out.c));
     });
     return out;
   }
@@ -117,6 +117,16 @@ class Equations {
   const EquilibriumProblem& problem_;
   double load_;
 };
+
+bool converged(const Residual& r, const NewtonOptions& options) {
+  return r.relative <= options.tolerance && r.dilatation <= options.dilatation_tolerance;
+}
+
+// Whether both residuals fall to a share of their former size, or pass.
+bool falls(const Residual& from, const Residual& to, double share, const NewtonOptions& options) {
+  return to.admissible && to.relative <= std::max(share * from.relative, options.tolerance) &&
+         to.dilatation <= std::max(share * from.dilatation, options.dilatation_tolerance);
+}
 
 MixedState moved(const MixedState& from, double length, const MixedState& step) {
   MixedState out = from;
@@ -174,12 +184,25 @@ std::string to_string(StopReason reason) {
   return "unknown";
 }
 
-NewtonReport newton(const EquilibriumProblem& problem, double load, LinearSystem& system, MixedState& state,
-                    const NewtonOptions& options) {
+namespace {
+
+// A start of Newton's method and what it leaves there.
+struct Start {
+  MixedState state;
+  Residual residual;
+};
+Start start_at(const Equations& equations, const MixedState& state) {
+  Start out{equations.start(state), {}};
+  out.residual = equations.residual(out.state);
+  return out;
+}
+
+// `tangent`: the unknowns whose tangent the system holds the factors of, empty without one.
+NewtonReport newton_from(const Equations& equations, Start start, LinearSystem& system, Vector& tangent,
+                         MixedState& state, const NewtonOptions& options) {
+  constexpr double kProgress = 0.9;  // a step with a former tangent is taken where both residuals fall so far
   NewtonReport report;
-  const Equations equations(problem, load);
-  MixedState x = equations.start(state);
-  Residual now = equations.residual(x);
+  auto& [x, now] = start;
   const auto stop = [&](StopReason reason) {
     report.reason = reason;
     if (reason == StopReason::converged) state = x;
@@ -188,16 +211,30 @@ NewtonReport newton(const EquilibriumProblem& problem, double load, LinearSystem
   if (!now.admissible) return stop(StopReason::line_search_failed);
   for (;; ++report.iterations) {
     report.residuals.push_back(now.relative);
-    if (now.relative <= options.tolerance && now.dilatation <= options.dilatation_tolerance)
-      return stop(StopReason::converged);
+    if (converged(now, options)) return stop(StopReason::converged);
     if (report.iterations == options.max_iterations) return stop(StopReason::max_iterations);
 
+    if (tangent.size() > 0 && options.contraction > 0) {
+      const Vector direction = -system.solve(equations.condensed(tangent, now));
+      MixedState trial = moved(x, 1, equations.step(tangent, now, direction));
+      Residual next = equations.residual(trial);
+      if (!falls(now, next, options.contraction, options)) tangent.resize(0);
+      if (falls(now, next, kProgress, options)) {
+        x = std::move(trial);
+        now = std::move(next);
+        continue;
+      }
+    }
+
+    tangent.resize(0);
     equations.assemble(x, system);
     if (!system.factorise()) return stop(StopReason::singular_tangent);
+    tangent = x.c;
+    ++report.tangents;
     report.unstable = !system.positive_definite();
     report.indefinite |= report.unstable;
     const Vector r = equations.condensed(x.c, now);
-    const MixedState step = equations.step(x, now, -system.solve(r));
+    const MixedState step = equations.step(x.c, now, -system.solve(r));
     const bool mixed = equations.mixed();
     const double slope = mixed ? 0 : r.dot(step.c);
     const double noise = 1e-14 * std::abs(now.potential);
@@ -225,11 +262,21 @@ NewtonReport newton(const EquilibriumProblem& problem, double load, LinearSystem
         continue;
       }
       report.shortened += shortening > 0;
+      if (!falls(now, next, options.contraction, options)) tangent.resize(0);
       x = trial;
       now = std::move(next);
     }
     if (!accepted) return stop(StopReason::line_search_failed);
   }
+}
+
+}  // namespace
+
+NewtonReport newton(const EquilibriumProblem& problem, double load, LinearSystem& system, MixedState& state,
+                    const NewtonOptions& options) {
+  const Equations equations(problem, load);
+  Vector tangent;
+  return newton_from(equations, start_at(equations, state), system, tangent, state, options);
 }
 
 NewtonReport newton(const EquilibriumProblem& problem, double load, LinearSystem& system, Vector& c,
@@ -242,11 +289,13 @@ NewtonReport newton(const EquilibriumProblem& problem, double load, LinearSystem
 
 LoadReport load_stepping(const EquilibriumProblem& problem, LinearSystem& system, Vector& c,
                          const LoadOptions& options, double from) {
-  constexpr double kTarget = 4;    // Newton iterations a step for which its length is kept
+  constexpr double kTarget = 4;    // tangents a step for which its length is kept
   constexpr double kNearly = 0.1;  // steps may be longer by this share to make the last one no shorter
+  constexpr double kBetter = 0.7;  // the last equilibrium is the better start below this share of residual
   LoadReport report;
   report.reached = from;
   double step = options.first_step;
+  Vector tangent;
   NewtonOptions on_path = options.newton;
   on_path.tolerance *= options.path_slack;
   on_path.dilatation_tolerance *= options.path_slack;
@@ -262,14 +311,21 @@ LoadReport load_stepping(const EquilibriumProblem& problem, LinearSystem& system
     const int steps_left = static_cast<int>(std::ceil(rest / step - kNearly));
     const double load = steps_left <= 1 ? 1 : report.reached + std::max(rest / steps_left, 0.75 * step);
     const NewtonOptions& newton_options = load < 1 ? on_path : options.newton;
-    MixedState trial = path.at(load);
-    NewtonReport attempt = newton(problem, load, system, trial, newton_options);
-    report.iterations += attempt.iterations;
-    if (!attempt.converged() && report.steps > 0) {  // the extrapolated start may be inadmissible
-      trial = path.states.back();
-      attempt = newton(problem, load, system, trial, newton_options);
-      report.iterations += attempt.iterations;
-    }
+    const Equations equations(problem, load);
+    MixedState trial;
+    const auto attempt_from = [&](Start start) {
+      const NewtonReport out =
+          newton_from(equations, std::move(start), system, tangent, trial, newton_options);
+      report.iterations += out.iterations;
+      report.tangents += out.tangents;
+      return out;
+    };
+    Start last = start_at(equations, path.states.back()), ahead = last;
+    if (report.steps > 0) ahead = start_at(equations, path.at(load));
+    const bool extrapolate = report.steps > 0 && ahead.residual.admissible &&
+                             last.residual.relative >= kBetter * ahead.residual.relative;
+    NewtonReport attempt = attempt_from(extrapolate ? std::move(ahead) : last);
+    if (!attempt.converged() && extrapolate) attempt = attempt_from(std::move(last));
     report.last = attempt;
     if (!attempt.converged()) {
       ++report.cuts;
@@ -288,7 +344,7 @@ LoadReport load_stepping(const EquilibriumProblem& problem, LinearSystem& system
     report.reached = load;
     if (options.on_step) options.on_step(load, c);
     step = std::min(options.largest_step,
-                    last_step * std::clamp(kTarget / std::max(1, attempt.iterations), 0.5, 2.0));
+                    last_step * std::clamp(kTarget / std::max(1, attempt.tangents), 0.5, 2.0));
   }
   return report;
 }

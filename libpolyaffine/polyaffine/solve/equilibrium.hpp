@@ -41,6 +41,9 @@ struct NewtonOptions {
   double dilatation_tolerance = 1e-8;  ///< on the largest |M⁻¹ R_p|
   int max_iterations = 25;
   int max_halvings = 12;
+  /// A tangent and its factors serve further steps, those of a next load included, while each step lowers
+  /// both residuals to this share (simplified Newton, Deuflhard 2011, §2.1.2); 0: every step has its own.
+  double contraction = 0;
 };
 
 enum class StopReason {
@@ -56,6 +59,7 @@ std::string to_string(StopReason reason);
 struct NewtonReport {
   StopReason reason = StopReason::converged;
   int iterations = 0;
+  int tangents = 0;               ///< assembled and factorised: the iterations with a tangent of their own
   std::vector<double> residuals;  ///< relative, one an iteration and the last
   int shortened = 0;              ///< line searches that took less than the whole step
   bool indefinite = false;        ///< some tangent was not positive definite
@@ -77,7 +81,7 @@ struct LoadReport {
   StopReason reason = StopReason::converged;
   double reached = 0;                   ///< last load parameter in equilibrium
   std::optional<double> unstable_from;  ///< first equilibrium that is no minimum: it need not be the only one
-  int steps = 0, cuts = 0, iterations = 0;
+  int steps = 0, cuts = 0, iterations = 0, tangents = 0;
   NewtonReport last;
   bool converged() const { return reason == StopReason::converged; }
 };
@@ -94,9 +98,9 @@ NewtonReport newton(const EquilibriumProblem& problem, double load, LinearSystem
 NewtonReport newton(const EquilibriumProblem& problem, double load, LinearSystem& system, Vector& c,
                     const NewtonOptions& options = {});
 
-/// Follows the equilibrium from λ = from to λ = 1 in steps that grow or shrink with the number of Newton
-/// iterations and are halved where Newton fails; each starts from the path through the last three equilibria.
-/// On failure c is the last equilibrium, at λ = reached.
+/// Follows the equilibrium from λ = from to λ = 1 in steps that grow or shrink with the number of tangents
+/// and are halved where Newton fails; each starts from the path through the last three equilibria, or from
+/// the last one where that leaves clearly less force. On failure c is the last equilibrium, at λ = reached.
 LoadReport load_stepping(const EquilibriumProblem& problem, LinearSystem& system, Vector& c,
                          const LoadOptions& options = {}, double from = 0);
 

@@ -110,6 +110,26 @@ TEST(MixedNewton, FindsTheEquilibriumOfTheCondensedForm) {
   }
 }
 
+TEST(MixedNewton, FormerTangentsLeadToTheSameEquilibriumWithFewerFactorisations) {
+  const Bar bar;
+  const EquilibriumProblem problem =
+      bar.bending(bar.wall(1e5, true));  // a chord that mixed up D would diverge
+  const auto solve = [&](double contraction, Vector& c) {
+    c = Vector::Zero(bar.table.num_unknowns());
+    LoadOptions options;
+    options.newton.contraction = contraction;
+    return load_stepping(problem, *sparse_system({&bar.table}, problem.fixed), c, options);
+  };
+  Vector exact, chords;
+  const LoadReport each = solve(0, exact), few = solve(0.25, chords);
+  ASSERT_TRUE(each.converged());
+  ASSERT_TRUE(few.converged());
+  EXPECT_EQ(each.tangents, each.iterations);
+  EXPECT_LT(3 * few.tangents, 2 * each.tangents);
+  EXPECT_LE(few.iterations, 40);
+  EXPECT_LT((chords - exact).norm(), 1e-6 * exact.norm());  // both residuals below 1e-8
+}
+
 TEST(MixedNewton, AStiffVolumeCostsNoMoreIterationsThanASoftOne) {
   const Bar bar;
   std::vector<int> iterations;
