@@ -4,6 +4,7 @@
 #include <polyaffine/core/error.hpp>
 
 #include "bench_command.hpp"
+#include "check_command.hpp"
 #include "explain_command.hpp"
 #include "mesh_command.hpp"
 #include "report_command.hpp"
@@ -35,6 +36,7 @@ int run_program(int argc, char** argv) {
   cardiac::app::add_explain_command(app);
   cardiac::app::add_validate_command(app);
   cardiac::app::add_bench_command(app);
+  cardiac::app::add_check_command(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
