@@ -131,8 +131,13 @@ SegmentFrames::Cell SegmentFrames::cell(double u, double psi) const {
   const auto after = static_cast<int>(std::upper_bound(breaks.begin(), breaks.end(), angle) - breaks.begin());
   const int j = (after + n - 1) % n;
   const double width = after % n == 0 ? breaks.front() + 2 * kPi - breaks.back() : breaks[after] - breaks[j];
-  return {cell_start_[k] + j, (u - positions_[k]) / (positions_[k + 1] - positions_[k]),
-          positive_angle(angle - breaks[j]) / width};
+  const double length = positions_[k + 1] - positions_[k];
+  return {cell_start_[k] + j,
+          (u - positions_[k]) / length,
+          positive_angle(angle - breaks[j]) / width,
+          length,
+          breaks[j],
+          width};
 }
 
 }  // namespace cardiac

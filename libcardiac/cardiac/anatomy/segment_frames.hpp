@@ -40,6 +40,9 @@ class SegmentFrames : public polyaffine::FrameField {
   struct Cell {
     int index = 0;
     double u = 0, psi = 0;  ///< position within the cell, each 0 to 1
+    double length = 0;      ///< of the cell in the apicobasal coordinate
+    double angle = 0;       ///< rotational coordinate at which it begins, rad
+    double width = 0;       ///< rad
   };
   Cell cell(double u, double psi) const;
   /// The cell of a point of the mesh and its place in it, three coordinates from 0 to 1.
@@ -48,7 +51,8 @@ class SegmentFrames : public polyaffine::FrameField {
     polyaffine::Vec3 place;
   };
   virtual PointCell point_cell(int tet, const polyaffine::Vec4& barycentric) const;
-  int num_cells() const { return static_cast<int>(cell_start_.back()); }
+  int num_cells() const { return cell_start_.back(); }
+  int num_apex_cells() const { return cell_start_[1]; }  ///< those at the axis, numbered first
 
  private:
   std::shared_ptr<const VentricularCoordinates> coordinates_;

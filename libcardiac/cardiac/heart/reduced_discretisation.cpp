@@ -5,37 +5,22 @@
 #include <cmath>
 
 #include <cardiac/anatomy/biventricular_frames.hpp>
+#include <cardiac/anatomy/border_frames.hpp>
 #include <cardiac/fibres/helix.hpp>
+#include <cardiac/heart/reduced_points.hpp>
 #include <polyaffine/geometry/geodesic_regions.hpp>
 #include <polyaffine/kinematics/region_frames.hpp>
-#include <polyaffine/quadrature/cell_rule.hpp>
-#include <polyaffine/quadrature/split_rule.hpp>
 
 namespace cardiac {
 
 using polyaffine::FrameFunctions;
 using polyaffine::LagrangeBasis;
 using polyaffine::Monomial;
-using polyaffine::Points;
 using polyaffine::Vec3;
 using polyaffine::Vec4;
 using polyaffine::Vector;
-using polyaffine::WallPoints;
 
 namespace {
-
-// Degree of the Gauss points of the mesh from which the points of a reduced model are chosen. Elements that
-// the border of a cell crosses are cut in parts, up to so many times, with points of the second degree each:
-// else the cells' volumes and, more so, the areas that a pressure pushes on are wrong by parts of elements.
-constexpr int kCandidateDegree = 4, kPartDegree = 2, kWallCuts = 1, kSurfaceCuts = 2;
-// Corners are asked for their cell this share of the way to the middle of the element: one that only touches
-// a border is not crossed by it, and rounding does not decide.
-constexpr double kDrawnIn = 1e-3;
-// Polynomials kept exact in a cell, along u, ψ and the depth: fibres turn by 120° through the wall. The
-// second one where functions are quadratic along the wall.
-constexpr polyaffine::CellDegree kCellDegree{4, 4, 8}, kBentCellDegree{6, 6, 8};
-// Total degree in u and ψ of the polynomials kept exact in a cell of a surface.
-constexpr int kSurfaceDegree = 4;
 
 std::vector<Monomial> monomials(const Protocol& protocol) {
   auto out = polyaffine::affine_monomials();
@@ -44,12 +29,6 @@ std::vector<Monomial> monomials(const Protocol& protocol) {
     if (std::find(out.begin(), out.end(), m) == out.end()) out.push_back(m);
   }
   return out;
-}
-
-polyaffine::CellDegree cell_degree(const std::vector<Monomial>& functions) {
-  const bool bent =
-      std::any_of(functions.begin(), functions.end(), [](const Monomial& m) { return m[0] + m[1] > 1; });
-  return bent ? kBentCellDegree : kCellDegree;
 }
 
 // Functions of every frame. Within a ring the tents interpolate linearly, so Σ_j C_j(ψ) (ψ − ψ_j) = 0: of the
@@ -64,121 +43,14 @@ std::vector<std::vector<Monomial>> independent(const SegmentFrames& frames,
   return out;
 }
 
-// Cell of each candidate point and its place in the cell, each coordinate 0 to 1.
-struct Cells {
-  std::vector<int> cell;
-  Points place;
-};
-
-// The tents are smooth in the cells between their kinks.
-Cells tent_cells(const SegmentFrames& frames, const WallPoints& candidates) {
-  Cells out{{}, Points(3, candidates.barycentric.cols())};
-  for (Eigen::Index q = 0; q < out.place.cols(); ++q) {
-    const auto c = frames.point_cell(candidates.tet[q], candidates.barycentric.col(q));
-    out.cell.push_back(c.index);
-    out.place.col(q) = c.place;
-  }
+// The frame of the cap has Cartesian axes, in which longitudinal and circumferential mean nothing: the
+// functions of degree two at most, each with l and c exchanged besides.
+std::vector<Monomial> of_cap(const std::vector<Monomial>& functions) {
+  std::vector<Monomial> out;
+  for (const Monomial& m : functions)
+    for (const Monomial& own : {m, Monomial{m[1], m[0], m[2]}})
+      if (m[0] + m[1] + m[2] <= 2 && std::find(out.begin(), out.end(), own) == out.end()) out.push_back(own);
   return out;
-}
-
-struct CandidatePoints {
-  WallPoints wall;
-  FaceRule face;
-};
-
-// Corners (columns, barycentric in a tet) in an order that belongs to the heart, not to the file: along a
-// line oblique to its axes.
-template <class Corners>
-Corners in_order_of_heart(const VentricularCoordinates& heart, int tet, const Corners& corners) {
-  const Vec3 along = heart.axis() + 0.618 * heart.anterior() + 0.382 * heart.axis().cross(heart.anterior());
-  std::vector<std::pair<double, Eigen::Index>> order;
-  for (Eigen::Index k = 0; k < corners.cols(); ++k)
-    order.emplace_back(along.dot(heart.position(tet, corners.col(k))), k);
-  std::ranges::sort(order);
-  Corners out = corners;
-  for (std::size_t k = 0; k < order.size(); ++k)
-    out.col(static_cast<Eigen::Index>(k)) = corners.col(order[k].second);
-  return out;
-}
-
-// Points that see the cells of the tents as they are, not to the nearest element.
-CandidatePoints tent_candidates(const VentricularCoordinates& heart, const SegmentFrames& frames) {
-  const auto crossed = [&frames](int tet, const auto& corners) {
-    const auto cell = [&](Eigen::Index k) {
-      const Vec4 inside = (1 - kDrawnIn) * corners.col(k) + kDrawnIn * corners.rowwise().mean();
-      return frames.point_cell(tet, inside).index;
-    };
-    const int first = cell(0);
-    for (Eigen::Index k = 1; k < corners.cols(); ++k)
-      if (cell(k) != first) return true;
-    return false;
-  };
-  CandidatePoints out;
-  out.wall = heart.space().wall_points([&, whole = polyaffine::tet_rule(kCandidateDegree),
-                                        part = polyaffine::tet_rule(kPartDegree)](int tet) {
-    const Eigen::Matrix4d order = in_order_of_heart(heart, tet, Eigen::Matrix4d::Identity().eval());
-    polyaffine::TetRule rule = polyaffine::split_rule(
-        whole, part, [&](const Eigen::Matrix4d& corners) { return crossed(tet, (order * corners).eval()); },
-        kWallCuts);
-    rule.barycentric = (order * rule.barycentric).eval();
-    return rule;
-  });
-  out.face = [crossed, &heart, whole = polyaffine::triangle_rule(kCandidateDegree),
-              part = polyaffine::triangle_rule(kPartDegree)](int tet,
-                                                             const LagrangeBasis::FaceCorners& face) {
-    const LagrangeBasis::FaceCorners in_order = in_order_of_heart(heart, tet, face);
-    const polyaffine::Mat3 order = face.transpose() * in_order;  // corners of a face are unit vectors
-    polyaffine::TriangleRule rule = polyaffine::split_rule(
-        whole, part,
-        [&](const polyaffine::Mat3& corners) { return crossed(tet, (in_order * corners).eval()); },
-        kSurfaceCuts);
-    rule.barycentric = (order * rule.barycentric).eval();
-    return rule;
-  };
-  return out;
-}
-
-// The regions themselves; in the cap, where angles mean little, the place across the axis.
-Cells region_cells(const Anatomy& anatomy, const Discretisation& d, const WallPoints& candidates) {
-  const VentricularCoordinates& coordinates = *anatomy.coordinates;
-  std::vector<double> centre(d.layout.num_nodes(), 0.0);
-  for (const FrameRing& ring : d.layout.rings)
-    for (int j = 0; j < ring.nodes; ++j) centre[ring.first_frame + j] = ring.node_angle(j);
-  Cells out{{}, Points(3, candidates.barycentric.cols())};
-  Points low = Points::Constant(3, d.layout.num_nodes(), HUGE_VAL);
-  Points high = -low;
-  for (Eigen::Index q = 0; q < out.place.cols(); ++q) {
-    const int tet = candidates.tet[q];
-    const int region = d.region[tet];
-    const CoordinateSample at = coordinates.sample(tet, candidates.barycentric.col(q));
-    const double from_centre = std::remainder(at.psi - centre[region], 2 * polyaffine::kPi);
-    const Vec3 X = coordinates.position(tet, candidates.barycentric.col(q)) - coordinates.base_centre();
-    out.cell.push_back(region);
-    if (region > d.layout.cap()) {
-      const auto right = coordinates.right()->sample(tet, candidates.barycentric.col(q));
-      out.place.col(q) = Vec3(at.u, right.psi, right.t);
-    } else
-      out.place.col(q) = region == d.layout.cap()
-                             ? Vec3(X.dot(coordinates.anterior()),
-                                    X.dot(coordinates.axis().cross(coordinates.anterior())), at.t)
-                             : Vec3(at.u, from_centre, at.t);
-    low.col(region) = low.col(region).cwiseMin(out.place.col(q));
-    high.col(region) = high.col(region).cwiseMax(out.place.col(q));
-  }
-  for (Eigen::Index q = 0; q < out.place.cols(); ++q) {
-    const int k = out.cell[q];
-    out.place.col(q) = (out.place.col(q) - low.col(k)).cwiseQuotient(high.col(k) - low.col(k));
-  }
-  return out;
-}
-
-// Few points a cell of the surface instead of those of every face.
-polyaffine::SurfacePoints compressed(const Anatomy& anatomy, const Discretisation& discretisation,
-                                     const polyaffine::SurfacePoints& points) {
-  const WallPoints places{points.tet, points.barycentric, points.weights, points.starts};
-  const Cells cells = discretisation.frames ? tent_cells(*discretisation.frames, places)
-                                            : region_cells(anatomy, discretisation, places);
-  return polyaffine::compress_surface_cells(points, cells.cell, cells.place.topRows<2>(), kSurfaceDegree);
 }
 
 // Tent weights, with boundary frames at the base that carry only functions with a factor l.
@@ -196,10 +68,16 @@ void add_tent_basis(const Anatomy& anatomy, const Protocol& protocol, Discretisa
   const auto own = independent(*out.frames, monomials(protocol));
   for (int i = 0; i < out.frames->num_frames(); ++i) {
     FrameFunctions f{own[i], heart_axes && i != out.layout.cap() && !(both && both->is_right(i))};
+    if (i == out.layout.cap()) f.monomials = of_cap(own[i]);
     if (i >= out.layout.num_nodes()) std::erase_if(f.monomials, [](const Monomial& m) { return m[0] == 0; });
     functions.push_back(f);
   }
-  out.frame_basis = std::make_shared<polyaffine::FrameBasis>(out.frames, functions);
+  if (*protocol.reduction.border_functions) {
+    const auto with_borders = std::make_shared<BorderFrames>(out.frames, segment_kinds(protocol));
+    functions.resize(with_borders->num_frames(), {{{0, 0, 0}}, heart_axes});
+    out.frame_basis = std::make_shared<polyaffine::FrameBasis>(with_borders, functions);
+  } else
+    out.frame_basis = std::make_shared<polyaffine::FrameBasis>(out.frames, functions);
 }
 
 // Zero on the base, one below the basal ring, with a continuous slope; at the nodes of the geometry.
@@ -253,21 +131,7 @@ Discretisation reduced_discretisation(const Anatomy& anatomy, const Protocol& pr
   out.num_unknowns = 3 * out.basis->num_functions();
   out.fixed.assign(out.num_unknowns, 0);
 
-  const LagrangeBasis& geometry = anatomy.coordinates->space();
-  const CandidatePoints from =
-      sigmoid ? CandidatePoints{geometry.wall_points(kCandidateDegree),
-                                [rule = polyaffine::triangle_rule(kCandidateDegree)](
-                                    int, const LagrangeBasis::FaceCorners&) { return rule; }}
-              : tent_candidates(*anatomy.coordinates, *out.frames);
-  const WallPoints& candidates = from.wall;
-  const Cells cells = sigmoid ? region_cells(anatomy, out, candidates) : tent_cells(*out.frames, candidates);
-  out.points =
-      protocol.reduction.integration == protocol::Integration::gauss
-          ? polyaffine::group_cells(candidates, cells.cell)
-          : polyaffine::compress_cells(candidates, cells.cell, cells.place, cell_degree(monomials(protocol)));
-  add_surface_points(anatomy, protocol, geometry, from.face, out);
-  for (auto* points : {&out.cavity_points, &out.right_cavity_points, &out.epicardium_points})
-    if (!points->tet.empty()) *points = compressed(anatomy, out, *points);
+  add_reduced_points(anatomy, protocol, out);
   return out;
 }
 

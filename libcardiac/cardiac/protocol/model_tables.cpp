@@ -87,11 +87,11 @@ Table reduction_table() {
                        "enriched; fem: full-order finite elements"})
       .key("preset", &Reduction::preset,
            {.meaning =
-                "set of enrichment and pressure_space: fast {tt, lt; segment_depth}, accurate {tt, lt, ct, "
-                "ltt, ctt, ttt; segment_bilinear}, the latter with {ll, lc, cc} besides where a [[region]] "
-                "differs from the rest: its bulge bends the wall along l and c",
-            .source =
-                "cardiac bench, 17 nodes, without a scar: 2 to 4 and 2 to 3 per cent of displacement error"})
+                "set of enrichment, pressure_space and border_functions: fast {tt, lt; segment_depth}, "
+                "accurate {tt, lt, ct, ltt, ttt, ll; segment_bilinear}, the latter with {lc, cc} and "
+                "border_functions besides where a [[region]] differs from the rest: its bulge bends the "
+                "wall along l and c, and its strain jumps",
+            .source = "cardiac bench"})
       .key("weights", &Reduction::weights,
            {.meaning =
                 "influence of a control node: tents (piecewise linear in ventricular coordinates) or sigmoid "
@@ -103,10 +103,17 @@ Table reduction_table() {
             .source = "Desrues, Delingette, Sermesant",
             .used_with = "weights",
             .used_values = {"sigmoid"}})
-      .key("enrichment", &Reduction::enrichment,
-           {.meaning =
-                "monomials beside the affine {1, l, c, t} of each frame, in the local longitudinal, "
-                "circumferential and depth coordinates: words of the letters l, c, t such as tt, lt, ctt",
+      .key(
+          "enrichment", &Reduction::enrichment,
+          {.meaning =
+               "monomials beside the affine {1, l, c, t} of each frame, in the local longitudinal, "
+               "circumferential and depth coordinates: words of the letters l, c, t such as tt, lt, ctt. The "
+               "frame of the cap, whose axes are Cartesian, has those of degree two, each with l and c "
+               "exchanged besides",
+           .absent = "from preset"})
+      .key("border_functions", &Reduction::border_functions,
+           {.meaning = "a displacement of its own for every border, and every corner, between segments whose "
+                       "[[region]] factors differ; with ring_nodes [4, 6, 6] and weights tents",
             .absent = "from preset"})
       .key("pressure_space", &Reduction::pressure_space,
            {.meaning =
@@ -141,11 +148,13 @@ Table reduction_table() {
            .meaning = "angle about the long axis of the first node of each ring, 0 anterior, growing towards "
                       "the septum; the others follow at equal steps",
            .absent = "0 for every ring"})
-      .key("integration", &Reduction::integration,
-           {.meaning = "integration points: cells (few points that keep polynomials between the kinks of the "
-                       "weights exact), gauss (in every tetrahedron) or trained (about half of the cells' "
-                       "points, chosen once for the heart on states of other pressures, tensions and "
-                       "stiffnesses, kept in the cache)"})
+      .key(
+          "integration", &Reduction::integration,
+          {.meaning = "integration points: cells (Gauss points of the cells between the kinks of the weights "
+                      "and the borders of segments that differ), gauss (in every tetrahedron) or trained "
+                      "(about half of the cells' "
+                      "points, chosen once for the heart on states of other pressures, tensions and "
+                      "stiffnesses, kept in the cache)"})
       .key(
           "element_order", &Reduction::element_order,
           {.range = {1, 2},

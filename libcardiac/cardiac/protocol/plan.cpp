@@ -76,6 +76,7 @@ PlanItem reduction_item(const Reduction& reduction, Scheme scheme) {
   }
   std::string functions;
   for (const std::string& word : *reduction.enrichment) functions += " + " + word;
+  if (*reduction.border_functions) functions += " + borders of segments that differ";
   return {
       "reduction", true,
       why + ", " + std::to_string(nodes) + " control nodes (" + rings + "), functions affine" + functions};

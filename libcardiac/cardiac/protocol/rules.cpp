@@ -80,6 +80,12 @@ void check_rings(const Reduction& reduction, const Place& place) {
              " angles, expected one for each of the " + each);
 }
 
+// Tents about the middles of the AHA segments.
+bool aha_tents(const Reduction& reduction) {
+  return reduction.ring_nodes == Reduction().ring_nodes && !reduction.ring_angles_deg &&
+         reduction.weights == Weights::tents;
+}
+
 void check_reduction(const Reduction& reduction, const Place& place) {
   std::set<std::string> seen;
   for (const std::string& monomial : reduction.enrichment.value_or(std::vector<std::string>{})) {
@@ -93,6 +99,10 @@ void check_reduction(const Reduction& reduction, const Place& place) {
     }
   }
   check_rings(reduction, place);
+  if (reduction.border_functions.value_or(false) && !aha_tents(reduction))
+    fail(place, "reduction.border_functions",
+         "found true with other frames, expected ring_nodes [4, 6, 6], no ring_angles_deg and weights "
+         "\"tents\"");
 }
 
 void check_activity(const Protocol& protocol, const Place& place) {
@@ -166,15 +176,17 @@ bool regions_differ(const Protocol& protocol) {
 void fill_presets(Protocol& protocol) {
   Reduction& reduction = protocol.reduction;
   const bool fast = reduction.preset == Preset::fast;
+  const bool contrast = !fast && regions_differ(protocol);
   using Words = std::vector<std::string>;
   if (!reduction.enrichment) {
-    Words words = fast ? Words{"tt", "lt"} : Words{"tt", "lt", "ct", "ltt", "ctt", "ttt"};
-    if (!fast && regions_differ(protocol)) words.insert(words.end(), {"ll", "lc", "cc"});
+    Words words = fast ? Words{"tt", "lt"} : Words{"tt", "lt", "ct", "ltt", "ttt", "ll"};
+    if (contrast) words.insert(words.end(), {"lc", "cc"});
     reduction.enrichment = std::move(words);
   }
   if (!reduction.pressure_space) {
     reduction.pressure_space = fast ? PressureSpace::segment_depth : PressureSpace::segment_bilinear;
   }
+  if (!reduction.border_functions) reduction.border_functions = contrast && aha_tents(reduction);
 }
 
 std::string why_fibres(const Protocol& protocol) {

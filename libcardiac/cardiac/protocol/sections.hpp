@@ -44,6 +44,7 @@ struct Reduction {
   double sigmoid_slope = 2.25;
   std::optional<std::vector<std::string>> enrichment;  ///< set by the preset when the file does not name it
   std::optional<PressureSpace> pressure_space;         ///< set by the preset when the file does not name it
+  std::optional<bool> border_functions;                ///< set by the preset when the file does not name it
   double local_bulk_modulus_kPa = 6;  ///< part of the bulk modulus that acts at every integration point
   Axes axes = Axes::heart;
   std::vector<int> ring_nodes = {4, 6, 6};  ///< control nodes of each ring, apex to base, beside the cap's

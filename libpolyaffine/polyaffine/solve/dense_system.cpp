@@ -45,8 +45,12 @@ class DenseSystem : public LinearSystem {
   }
 
   Matrix solve(const Matrix& rhs) const override {
-    if (positive_) return cholesky_.solve(rhs);
-    return lu_.solve(rhs);
+    if (!positive_) return lu_.solve(rhs);
+    if (rhs.cols() > 1) return cholesky_.solve(rhs);
+    Vector x = rhs;  // for one vector the substitution of a matrix spends its time on copies of the factor
+    cholesky_.matrixL().solveInPlace(x);
+    cholesky_.matrixU().solveInPlace(x);
+    return x;
   }
 
   bool positive_definite() const override { return positive_; }

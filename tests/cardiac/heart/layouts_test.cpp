@@ -22,8 +22,9 @@ struct Case {
 const std::vector<Case> kCases{
     {"Five", {"reduction.ring_nodes=[4]"}, 5},
     {"Aha", {}, 17},
-    {"AhaEnriched", {"reduction.preset=accurate"}, 17},
-    {"TwentyNineEnriched", {"reduction.ring_nodes=[4, 8, 8, 8]", "reduction.preset=accurate"}, 29},
+    // With ll it is 1.4e-7 and 5.2e-7: between two rings the parabolas of both nearly cancel.
+    {"AhaEnriched", {"reduction.preset=accurate"}, 17, 3e-8},
+    {"TwentyNineEnriched", {"reduction.ring_nodes=[4, 8, 8, 8]", "reduction.preset=accurate"}, 29, 3e-8},
     {"Turned", {"reduction.ring_nodes=[3, 5]", "reduction.ring_angles_deg=[0, 20]"}, 9},
     {"SixtyOne", {"reduction.ring_nodes=[12, 12, 12, 12, 12]", "reduction.enrichment=[\"tt\"]"}, 61},
     // Of 61 frames with lt as well it is 3.7e-6; functions that depend on each other leave 1e-15.

@@ -43,7 +43,7 @@ json other_value(const cardiac::protocol::Key& key, const json& standard) {
     case Kind::whole:
       return standard == 2 ? 1 : 2;
     case Kind::flag:
-      return !standard.get<bool>();
+      return !(standard.is_boolean() && standard.get<bool>());
     case Kind::text:
       return "other";
     case Kind::choice:

@@ -56,8 +56,13 @@ TEST(Parse, AccuratePresetBendsTheWallWhereRegionsDiffer) {
   const auto enrichment = [](const std::string& text, const std::string& preset = "accurate") {
     return *parsed(text, {"reduction.preset=" + preset}).reduction.enrichment;
   };
-  const Words alike{"tt", "lt", "ct", "ltt", "ctt", "ttt"};
-  const Words differing{"tt", "lt", "ct", "ltt", "ctt", "ttt", "ll", "lc", "cc"};
+  const auto borders = [](const std::string& text, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> settings{"reduction.preset=accurate"};
+    settings.insert(settings.end(), more.begin(), more.end());
+    return *parsed(text, settings).reduction.border_functions;
+  };
+  const Words alike{"tt", "lt", "ct", "ltt", "ttt", "ll"};
+  const Words differing{"tt", "lt", "ct", "ltt", "ttt", "ll", "lc", "cc"};
   EXPECT_EQ(enrichment(kBeat), alike);
   EXPECT_EQ(enrichment(kBeat + region), alike);
   for (const char* key : {"tension_factor", "stiffness_factor", "activation_delay_ms"})
@@ -66,6 +71,13 @@ TEST(Parse, AccuratePresetBendsTheWallWhereRegionsDiffer) {
   // Nothing contracts: of the factors only the stiffness plays a part.
   EXPECT_EQ(enrichment(kPassive + region + "tension_factor = 0.5\n"), alike);
   EXPECT_EQ(enrichment(kPassive + region + "stiffness_factor = 0.5\n"), differing);
+  const std::string weak = kBeat + region + "tension_factor = 0.5\n";
+  EXPECT_FALSE(borders(kBeat + region));
+  EXPECT_TRUE(borders(weak));
+  EXPECT_FALSE(borders(weak, {"reduction.preset=fast"}));
+  EXPECT_TRUE(borders(weak, {"reduction.preset=fast", "reduction.border_functions=true"}));
+  EXPECT_FALSE(borders(weak, {"reduction.ring_nodes=[4, 8, 8, 8]"}));
+  EXPECT_FALSE(borders(weak, {"reduction.weights=sigmoid"}));
 }
 
 TEST(Parse, PresetFillsWhatTheFileLeavesOut) {

@@ -45,9 +45,9 @@ TEST(Plan, TellsTheFunctionsAndWhetherRegionsDiffer) {
     return std::ranges::find(items, part, &cardiac::PlanItem::part)->why;
   };
   const std::string region = "[[region]]\nsegments = [7]\n";
-  EXPECT_THAT(why("reduction", kBeat), testing::EndsWith("affine + tt + lt + ct + ltt + ctt + ttt"));
+  EXPECT_THAT(why("reduction", kBeat), testing::EndsWith("affine + tt + lt + ct + ltt + ttt + ll"));
   EXPECT_THAT(why("reduction", kBeat + region + "tension_factor = 0.2\n"),
-              testing::EndsWith("+ ttt + ll + lc + cc"));
+              testing::EndsWith("+ ll + lc + cc + borders of segments that differ"));
   EXPECT_THAT(why("regions", kBeat + region), testing::HasSubstr("none of which differs"));
   EXPECT_EQ(why("regions", kBeat + region + "tension_factor = 0.2\n"), "1 named by [[region]]");
 }

@@ -1,0 +1,240 @@
+#include "cardiac/heart/reduced_points.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <cardiac/anatomy/right_ventricle.hpp>
+#include <cardiac/anatomy/segment_cells.hpp>
+#include <polyaffine/quadrature/cell_gauss.hpp>
+#include <polyaffine/quadrature/split_rule.hpp>
+
+namespace cardiac {
+
+using polyaffine::LagrangeBasis;
+using polyaffine::Monomial;
+using polyaffine::Points;
+using polyaffine::SurfacePoints;
+using polyaffine::Vec3;
+using polyaffine::Vec4;
+using polyaffine::WallPoints;
+
+namespace {
+
+// Degree of the Gauss points of the mesh from which the points of a reduced model are chosen. Elements that
+// the border of a cell crosses are cut in parts, up to so many times, with points of the second degree each:
+// else the cells' volumes and, more so, the areas that a pressure pushes on are wrong by parts of elements.
+constexpr int kCandidateDegree = 4, kPartDegree = 2, kWallCuts = 1, kSurfaceCuts = 2;
+// Corners are asked for their cell this share of the way to the middle of the element: one that only touches
+// a border is not crossed by it, and rounding does not decide.
+constexpr double kDrawnIn = 1e-3;
+// Gauss points of a cell through the depth, in which fibres turn by 120°, and along the wall; there, where
+// functions are quadratic; and in the wide cells at the axis, in which the wall bends most.
+constexpr int kDepth = 4, kAlong = 2, kAlongBent = 3, kAlongApex = 4;
+// On surfaces, along the wall, and at the axis.
+constexpr int kSurface = 3, kSurfaceApex = 5;
+// Polynomials kept exact in a cell that is no box, along u, ψ and the depth, the second where functions are
+// quadratic along the wall; and their total degree on a surface.
+constexpr polyaffine::CellDegree kCellDegree{4, 4, 8}, kBentCellDegree{6, 6, 8};
+constexpr int kSurfaceDegree = 4;
+
+// Cell of each candidate point and its place in the cell, each coordinate 0 to 1.
+struct Cells {
+  std::vector<int> cell;
+  Points place;
+};
+
+template <class Candidates>
+Cells tent_cells(const SegmentCells& cells, const Candidates& candidates) {
+  Cells out{{}, Points(3, candidates.barycentric.cols())};
+  for (Eigen::Index q = 0; q < out.place.cols(); ++q) {
+    const auto at = cells(candidates.tet[q], candidates.barycentric.col(q));
+    out.cell.push_back(at.cell);
+    out.place.col(q) = at.place;
+  }
+  return out;
+}
+
+struct CandidatePoints {
+  WallPoints wall;
+  FaceRule face;
+};
+
+// Corners (columns, barycentric in a tet) in an order that belongs to the heart, not to the file: along a
+// line oblique to its axes.
+template <class Corners>
+Corners in_order_of_heart(const VentricularCoordinates& heart, int tet, const Corners& corners) {
+  const Vec3 along = heart.axis() + 0.618 * heart.anterior() + 0.382 * heart.axis().cross(heart.anterior());
+  std::vector<std::pair<double, Eigen::Index>> order;
+  for (Eigen::Index k = 0; k < corners.cols(); ++k)
+    order.emplace_back(along.dot(heart.position(tet, corners.col(k))), k);
+  std::ranges::sort(order);
+  Corners out = corners;
+  for (std::size_t k = 0; k < order.size(); ++k)
+    out.col(static_cast<Eigen::Index>(k)) = corners.col(order[k].second);
+  return out;
+}
+
+// Points that see the cells of the tents as they are, not to the nearest element.
+CandidatePoints tent_candidates(const VentricularCoordinates& heart, const SegmentCells& cells) {
+  const auto crossed = [&cells](int tet, const auto& corners) {
+    const auto cell = [&](Eigen::Index k) {
+      const Vec4 inside = (1 - kDrawnIn) * corners.col(k) + kDrawnIn * corners.rowwise().mean();
+      return cells(tet, inside).cell;
+    };
+    const int first = cell(0);
+    for (Eigen::Index k = 1; k < corners.cols(); ++k)
+      if (cell(k) != first) return true;
+    return false;
+  };
+  CandidatePoints out;
+  out.wall = heart.space().wall_points([&, whole = polyaffine::tet_rule(kCandidateDegree),
+                                        part = polyaffine::tet_rule(kPartDegree)](int tet) {
+    const Eigen::Matrix4d order = in_order_of_heart(heart, tet, Eigen::Matrix4d::Identity().eval());
+    polyaffine::TetRule rule = polyaffine::split_rule(
+        whole, part, [&](const Eigen::Matrix4d& corners) { return crossed(tet, (order * corners).eval()); },
+        kWallCuts);
+    rule.barycentric = (order * rule.barycentric).eval();
+    return rule;
+  });
+  out.face = [crossed, &heart, whole = polyaffine::triangle_rule(kCandidateDegree),
+              part = polyaffine::triangle_rule(kPartDegree)](int tet,
+                                                             const LagrangeBasis::FaceCorners& face) {
+    const LagrangeBasis::FaceCorners in_order = in_order_of_heart(heart, tet, face);
+    const polyaffine::Mat3 order = face.transpose() * in_order;  // corners of a face are unit vectors
+    polyaffine::TriangleRule rule = polyaffine::split_rule(
+        whole, part,
+        [&](const polyaffine::Mat3& corners) { return crossed(tet, (in_order * corners).eval()); },
+        kSurfaceCuts);
+    rule.barycentric = (order * rule.barycentric).eval();
+    return rule;
+  };
+  return out;
+}
+
+// The regions themselves; in the cap, where angles mean little, the place across the axis.
+Cells region_cells(const Anatomy& anatomy, const Discretisation& d, const WallPoints& candidates) {
+  const VentricularCoordinates& coordinates = *anatomy.coordinates;
+  std::vector<double> centre(d.layout.num_nodes(), 0.0);
+  for (const FrameRing& ring : d.layout.rings)
+    for (int j = 0; j < ring.nodes; ++j) centre[ring.first_frame + j] = ring.node_angle(j);
+  Cells out{{}, Points(3, candidates.barycentric.cols())};
+  Points low = Points::Constant(3, d.layout.num_nodes(), HUGE_VAL);
+  Points high = -low;
+  for (Eigen::Index q = 0; q < out.place.cols(); ++q) {
+    const int tet = candidates.tet[q];
+    const int region = d.region[tet];
+    const CoordinateSample at = coordinates.sample(tet, candidates.barycentric.col(q));
+    const double from_centre = std::remainder(at.psi - centre[region], 2 * polyaffine::kPi);
+    const Vec3 X = coordinates.position(tet, candidates.barycentric.col(q)) - coordinates.base_centre();
+    out.cell.push_back(region);
+    if (region > d.layout.cap()) {
+      const auto right = coordinates.right()->sample(tet, candidates.barycentric.col(q));
+      out.place.col(q) = Vec3(at.u, right.psi, right.t);
+    } else
+      out.place.col(q) = region == d.layout.cap()
+                             ? Vec3(X.dot(coordinates.anterior()),
+                                    X.dot(coordinates.axis().cross(coordinates.anterior())), at.t)
+                             : Vec3(at.u, from_centre, at.t);
+    low.col(region) = low.col(region).cwiseMin(out.place.col(q));
+    high.col(region) = high.col(region).cwiseMax(out.place.col(q));
+  }
+  for (Eigen::Index q = 0; q < out.place.cols(); ++q) {
+    const int k = out.cell[q];
+    out.place.col(q) = (out.place.col(q) - low.col(k)).cwiseQuotient(high.col(k) - low.col(k));
+  }
+  return out;
+}
+
+// Whether functions are quadratic along and around the wall.
+std::array<bool, 2> bent(const polyaffine::FrameBasis& basis) {
+  std::array<bool, 2> out{};
+  for (const auto& frame : basis.frames())
+    if (frame.local_axes)
+      for (const Monomial& m : frame.monomials)
+        for (int k = 0; k < 2; ++k) out[k] = out[k] || m[k] > 1;
+  return out;
+}
+
+}  // namespace
+
+std::vector<int> segment_kinds(const Protocol& protocol) {
+  using Factors = std::array<double, 3>;
+  std::vector<Factors> found{{1, 1, 0}};
+  std::vector<int> out(kBothSegments, 0);
+  for (const auto& region : protocol.regions) {
+    Factors factors{region.stiffness_factor, 1, 0};
+    if (protocol.contraction)
+      factors = {region.stiffness_factor, region.tension_factor, region.activation_delay_ms};
+    const auto place = std::find(found.begin(), found.end(), factors) - found.begin();
+    if (place == std::ssize(found)) found.push_back(factors);
+    for (const int s : region.segments) out[s - 1] = static_cast<int>(place);
+  }
+  return out;
+}
+
+namespace {
+
+// Points from which training chooses are there for every segment: they have to serve any scar.
+std::vector<int> kinds_of_points(const Protocol& protocol) {
+  if (protocol.reduction.integration != protocol::Integration::trained) return segment_kinds(protocol);
+  std::vector<int> out(kBothSegments);
+  std::iota(out.begin(), out.end(), 0);
+  return out;
+}
+
+}  // namespace
+
+void add_reduced_points(const Anatomy& anatomy, const Protocol& protocol, Discretisation& out) {
+  const VentricularCoordinates& heart = *anatomy.coordinates;
+  const LagrangeBasis& geometry = heart.space();
+  const bool all_points = protocol.reduction.integration == protocol::Integration::gauss;
+  const std::array<bool, 2> quadratic = bent(*out.frame_basis);
+  const polyaffine::CellDegree degree = quadratic[0] || quadratic[1] ? kBentCellDegree : kCellDegree;
+  const auto surfaces = {&out.cavity_points, &out.right_cavity_points, &out.epicardium_points};
+  if (!out.frames) {  // sigmoid weights: regions are no boxes
+    const WallPoints candidates = geometry.wall_points(kCandidateDegree);
+    const Cells cells = region_cells(anatomy, out, candidates);
+    out.points = all_points ? polyaffine::group_cells(candidates, cells.cell)
+                            : polyaffine::compress_cells(candidates, cells.cell, cells.place, degree);
+    add_surface_points(
+        anatomy, protocol, geometry,
+        [rule = polyaffine::triangle_rule(kCandidateDegree)](int, const LagrangeBasis::FaceCorners&) {
+          return rule;
+        },
+        out);
+    for (SurfacePoints* points : surfaces) {
+      if (points->tet.empty()) continue;
+      const Cells own = region_cells(
+          anatomy, out, WallPoints{points->tet, points->barycentric, points->weights, points->starts});
+      *points = polyaffine::compress_surface_cells(*points, own.cell, own.place.topRows<2>(), kSurfaceDegree);
+    }
+    return;
+  }
+
+  const SegmentCells cells(out.frames, kinds_of_points(protocol));
+  const CandidatePoints candidates = tent_candidates(heart, cells);
+  const Cells wall = tent_cells(cells, candidates.wall);
+  const auto counts = [&](int cell) {
+    polyaffine::CellCounts n{quadratic[0] ? kAlongBent : kAlong, quadratic[1] ? kAlongBent : kAlong, kDepth};
+    if (cells.at_apex(cell)) n[0] = n[1] = kAlongApex;
+    return n;
+  };
+  out.points = all_points
+                   ? polyaffine::group_cells(candidates.wall, wall.cell)
+                   : polyaffine::gauss_cells(candidates.wall, wall.cell, wall.place, cells, counts, degree);
+  add_surface_points(anatomy, protocol, geometry, candidates.face, out);
+  const auto surface_counts = [&](int cell) {
+    const int n = cells.at_apex(cell) ? kSurfaceApex : kSurface;
+    return polyaffine::CellCounts{n, n, 1};
+  };
+  for (SurfacePoints* points : surfaces) {
+    if (points->tet.empty()) continue;
+    const Cells own = tent_cells(cells, *points);
+    *points = polyaffine::gauss_surface_cells(*points, own.cell, own.place.topRows<2>(), cells,
+                                              surface_counts, kSurfaceDegree, geometry);
+  }
+}
+
+}  // namespace cardiac
