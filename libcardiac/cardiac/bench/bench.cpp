@@ -42,7 +42,7 @@ ModelChoice reduced(const std::string& preset, const std::string& ring_nodes, st
 constexpr std::array kRingNodes{"[4]", "[4,6,6]", "[4,6,6,6,6]", "[12,12,12,12,12]"};
 constexpr const char* kSegments = kRingNodes[1];
 
-// By edge length, or by the cells of a structured mesh.
+// By edge length on Land's ellipsoid (as fine on another), or by the cells of a structured mesh.
 using MeshChoice = std::variant<double, StructuredCells>;
 
 struct Plan {
@@ -68,12 +68,9 @@ Plan quick_plan() {
 
 Plan whole_plan() {
   Plan plan;
-  plan.meshes = {1.56,
-                 2.2,
-                 StructuredCells{3, 6, 1},
-                 StructuredCells{4, 8, 1},
-                 StructuredCells{6, 12, 1},
-                 StructuredCells{8, 16, 2}};
+  plan.meshes = {StructuredCells{16, 32, 3}, 2.2,
+                 StructuredCells{3, 6, 1},   StructuredCells{4, 8, 1},
+                 StructuredCells{6, 12, 1},  StructuredCells{8, 16, 2}};
   plan.models = {full_order(2, 0)};
   for (std::size_t mesh = 0; mesh < plan.meshes.size(); ++mesh)
     for (const int order : {1, 2})
@@ -90,16 +87,38 @@ Plan whole_plan() {
   return plan;
 }
 
+// The presets on another heart.
+Plan heart_plan() {
+  Plan plan;
+  plan.meshes = {StructuredCells{16, 32, 3}, 2.2};
+  plan.models = {full_order(2, 0), full_order(2, 1), reduced("fast", kSegments, 1),
+                 reduced("accurate", kSegments, 1)};
+  return plan;
+}
+
 Plan make_plan(const BenchScene& scene, bool quick) {
   if (scene.group == kCompliance) return compliance_plan();
+  if (!quick && (scene.name == "end_systole_human" || scene.to_wall)) return heart_plan();
   return quick ? quick_plan() : whole_plan();
 }
 
+CurvedMesh ellipsoid_mesh(const TruncatedEllipsoid& shape, const MeshChoice& choice,
+                          const BenchContext& context) {
+  if (const auto* cells = std::get_if<StructuredCells>(&choice)) return structured_ellipsoid(shape, *cells);
+  const double edge = std::get<double>(choice) * shape.endo_long_mm / land_ellipsoid().endo_long_mm;
+  CurvedMesh out{context.mesh_ellipsoid(shape, edge), {}};
+  out.midpoints = exact_midpoints(shape, out.mesh);
+  return out;
+}
+
 CurvedMesh make_mesh(const BenchScene& scene, const MeshChoice& choice, const BenchContext& context) {
-  if (const auto* cells = std::get_if<StructuredCells>(&choice))
-    return structured_ellipsoid(scene.shape, *cells);
-  CurvedMesh out{context.mesh_ellipsoid(scene.shape, std::get<double>(choice)), {}};
-  out.midpoints = exact_midpoints(scene.shape, out.mesh);
+  CurvedMesh out = ellipsoid_mesh(scene.shape, choice, context);
+  if (!scene.to_wall) return out;
+  Points points = out.mesh.points();
+  for (Eigen::Index i = 0; i < points.cols(); ++i) points.col(i) = scene.to_wall(points.col(i));
+  for (auto& [edge, X] : out.midpoints) X = scene.to_wall(X);
+  out.mesh = polyaffine::TetMesh(points, out.mesh.tets(), out.mesh.regions(),
+                                 {out.mesh.boundary(), out.mesh.boundary_labels()});
   return out;
 }
 

@@ -1,5 +1,7 @@
 #include <cardiac/bench/model.hpp>
 
+#include <Eigen/Geometry>
+
 #include <cardiac/fibres/ellipsoid_fibres.hpp>
 #include <cardiac/protocol/names.hpp>
 #include <polyaffine/core/single_thread.hpp>
@@ -13,6 +15,25 @@ WallLoad wall_load(const SceneLoad& load, const Points& X) {
   out.tension.resize(X.cols());
   for (Eigen::Index q = 0; q < X.cols(); ++q) out.tension[q] = load.tension_kPa(X.col(q));
   return out;
+}
+
+// Fibres of the ellipsoid, carried along where the wall is another: f and n × s turn with it.
+FibreAxes wall_fibres(const BenchScene& scene, const HelixAngles& angles, Points X) {
+  if (!scene.to_wall) return ellipsoid_fibres(scene.shape, angles, X);
+  constexpr double kStep = 1e-5;  // mm
+  for (Eigen::Index q = 0; q < X.cols(); ++q) X.col(q) = scene.to_ellipsoid(X.col(q));
+  FibreAxes axes = ellipsoid_fibres(scene.shape, angles, X);
+  for (Eigen::Index q = 0; q < X.cols(); ++q) {
+    polyaffine::Mat3 gradient;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 step = kStep * Vec3::Unit(k), at = X.col(q);
+      gradient.col(k) = (scene.to_wall(at + step) - scene.to_wall(at - step)) / (2 * kStep);
+    }
+    const Vec3 f = (gradient * axes.col(q).head<3>()).normalized(), s = gradient * axes.col(q).segment<3>(3);
+    const Vec3 n = f.cross(s).normalized();
+    axes.col(q) << f, n.cross(f), n;
+  }
+  return axes;
 }
 
 // The same for all methods; errors of the discretisations are above 10⁻³.
@@ -35,12 +56,12 @@ BenchModel::BenchModel(const BenchScene& scene, const CurvedMesh& mesh,
   ExactGeometry exact;
   exact.midpoints = mesh.midpoints;
   if (protocol.fibres)
-    exact.fibres = [shape = scene.shape,
+    exact.fibres = [scene,
                     angles = HelixAngles{protocol.fibres->endo_angle_deg, protocol.fibres->epi_angle_deg,
                                          protocol.fibres->sheet_angle_deg}](
                        const VentricularCoordinates& coordinates, const std::vector<int>& tet,
                        const Eigen::Matrix4Xd& barycentric) {
-      return ellipsoid_fibres(shape, angles, coordinates.space().positions(tet, barycentric));
+      return wall_fibres(scene, angles, coordinates.space().positions(tet, barycentric));
     };
   const auto anatomy = std::make_shared<const Anatomy>(build_anatomy(mesh.mesh, protocol, exact));
   ventricle_ = build_ventricle(anatomy, protocol, protocol.reduction.method);

@@ -21,6 +21,8 @@ struct BenchScene {
   std::string protocol;  ///< TOML: law, fibres and which loads act
   std::vector<SceneLoad>
       path;  ///< loads in numbers: equilibria reached one after the other from the unloaded wall at rest
+  /// From a place of the ellipsoid to that of the wall and back; empty: the wall is the ellipsoid.
+  std::function<Vec3(const Vec3&X)> to_wall{}, to_ellipsoid{};
 };
 
 inline constexpr auto kCompliance = "compliance";
@@ -31,6 +33,10 @@ inline constexpr auto kCompliance = "compliance";
 ///   Land's family of ellipsoids, tension 75 f⊗f (second Piola–Kirchhoff) and pressure 13.5 kPa together;
 /// - end_systole_scar: from there, the tension in segments 7 and 8 falls to a fifth, with a smooth border of
 ///   a tenth of a segment;
+/// - end_systole_human: end_systole on the human ventricle of idealised.hpp;
+/// - end_systole_asymmetric: end_systole where thickness and tension vary by 40 % around the circumference:
+///   the depth of Land's wall is stretched by 1 + w cos ψ / 5 (anterior, ψ = 0, thickest), w a smooth step
+///   from 0 at the apex to 1 at the base, the tension by 1 − cos ψ / 5;
 /// - compliance: ellipsoid_passive at 0.02 kPa and ν = 0.3 … 0.4999, to see whether a model locks.
 const std::vector<BenchScene>& bench_scenes();
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <sstream>
@@ -61,6 +62,35 @@ double scar_tension(const Vec3& X) {
          (1 - (1 - kScarTension) * ellipsoid_segment_share(land_ellipsoid(), {7, 8}, kScarBorder, X));
 }
 
+// Land's wall, thicker on the side of +y and thinner opposite: the distance to the endocardium across the
+// long axis times 1 + w cos ψ / 5.
+double stretch(const Vec3& X) {
+  const double radius = X.head<2>().norm(), height = (X.z() + 17) / 22;
+  if (radius == 0 || height <= 0) return 1;
+  const double w = height < 1 ? height * height * (3 - 2 * height) : 1;
+  return 1 + 0.2 * w * X.y() / radius;
+}
+
+Vec3 across_from_endocardium(const Vec3& X, double factor) {
+  const double radius = X.head<2>().norm();
+  if (radius == 0) return X;
+  const double inside = 7 * std::sqrt(std::max(0.0, 1 - X.z() * X.z() / (17 * 17)));
+  const double share = (inside + factor * (radius - inside)) / radius;
+  return {share * X.x(), share * X.y(), X.z()};
+}
+
+BenchScene asymmetric(BenchScene scene) {
+  scene.group = scene.name = "end_systole_asymmetric";
+  scene.title = "End systole of an asymmetric wall";
+  scene.to_wall = [](const Vec3& X) { return across_from_endocardium(X, stretch(X)); };
+  scene.to_ellipsoid = [](const Vec3& X) { return across_from_endocardium(X, 1 / stretch(X)); };
+  scene.path = {{kPressure, [](const Vec3& X) {
+                   const double radius = X.head<2>().norm();
+                   return kTension * (1 - (radius > 0 ? 0.2 * X.y() / radius : 0));
+                 }}};
+  return scene;
+}
+
 }  // namespace
 
 double ellipsoid_segment_share(const TruncatedEllipsoid& shape, const std::vector<int>& segments,
@@ -88,7 +118,14 @@ const std::vector<BenchScene>& bench_scenes() {
          "End systole with a scar",
          shape,
          std::string(kEndSystole) + kScar,
-         {{kPressure, healthy_tension}, {kPressure, scar_tension}}}};
+         {{kPressure, healthy_tension}, {kPressure, scar_tension}}},
+        {"end_systole_human",
+         "end_systole_human",
+         "End systole of a human ventricle",
+         human_lv(),
+         kEndSystole,
+         {{kPressure, healthy_tension}}}};
+    out.push_back(asymmetric(out[1]));
     for (const char* poisson : {"0.3", "0.4", "0.45", "0.49", "0.499", "0.4999"})
       out.push_back({kCompliance,
                      std::string("compliance_") + poisson,
