@@ -26,6 +26,8 @@ namespace {
 // the border of a cell crosses are cut in parts, up to so many times, with points of the second degree each:
 // else the cells' volumes and, more so, the areas that a pressure pushes on are wrong by parts of elements.
 constexpr int kCandidateDegree = 4, kPartDegree = 2, kWallCuts = 1, kSurfaceCuts = 2;
+// The same for points of strain, which weigh means and need no cut elements.
+constexpr int kStrainDegree = 2;
 // Corners are asked for their cell this share of the way to the middle of the element: one that only touches
 // a border is not crossed by it, and rounding does not decide.
 constexpr double kDrawnIn = 1e-3;
@@ -176,11 +178,21 @@ std::vector<int> segment_kinds(const Protocol& protocol) {
 
 namespace {
 
-// Points from which training chooses are there for every segment: they have to serve any scar.
-std::vector<int> kinds_of_points(const Protocol& protocol) {
-  if (protocol.reduction.integration != protocol::Integration::trained) return segment_kinds(protocol);
+std::vector<int> every_segment() {
   std::vector<int> out(kBothSegments);
   std::iota(out.begin(), out.end(), 0);
+  return out;
+}
+
+// Points from which training chooses are there for every segment: they have to serve any scar.
+std::vector<int> kinds_of_points(const Protocol& protocol) {
+  const bool trained = protocol.reduction.integration == protocol::Integration::trained;
+  return trained ? every_segment() : segment_kinds(protocol);
+}
+
+WallPoints subset(const WallPoints& points, const std::vector<int>& which) {
+  WallPoints out{{}, points.barycentric(Eigen::all, which), points.weights(which), {}};
+  for (const int p : which) out.tet.push_back(points.tet[p]);
   return out;
 }
 
@@ -235,6 +247,25 @@ void add_reduced_points(const Anatomy& anatomy, const Protocol& protocol, Discre
     *points = polyaffine::gauss_surface_cells(*points, own.cell, own.place.topRows<2>(), cells,
                                               surface_counts, kSurfaceDegree, geometry);
   }
+}
+
+polyaffine::WallPoints strain_points(const Anatomy& anatomy, const Discretisation& d) {
+  if (!d.frames) return d.points;
+  const SegmentCells cells(d.frames, every_segment());
+  const WallPoints candidates = anatomy.coordinates->space().wall_points(kStrainDegree);
+  std::vector<int> left, right;
+  for (std::size_t q = 0; q < candidates.tet.size(); ++q)
+    (anatomy.segment[candidates.tet[q]] > kAhaSegments ? right : left).push_back(static_cast<int>(q));
+  const WallPoints left_wall = subset(candidates, left);
+  const Cells of_left = tent_cells(cells, left_wall);
+  const auto counts = [](int) { return polyaffine::CellCounts{kAlong, kAlong, kDepth}; };
+  WallPoints out =
+      polyaffine::gauss_cells(left_wall, of_left.cell, of_left.place, cells, counts, kCellDegree);
+  if (right.empty()) return out;
+  const WallPoints right_wall = subset(candidates, right);
+  const Cells of_right = region_cells(anatomy, d, right_wall);
+  append(polyaffine::compress_cells(right_wall, of_right.cell, of_right.place, kCellDegree), out);
+  return out;
 }
 
 }  // namespace cardiac

@@ -17,4 +17,10 @@ std::vector<int> segment_kinds(const Protocol& protocol);
 /// has those of all elements.
 void add_reduced_points(const Anatomy& anatomy, const Protocol& protocol, Discretisation& discretisation);
 
+/// Points over which the strain of segments is averaged: of a reduced model with tents those of cells that
+/// end at every segment's border (in the right free wall, few points of the elements in every segment), since
+/// the integration points of a cell that lies in two segments share it out unevenly; else the integration
+/// points.
+polyaffine::WallPoints strain_points(const Anatomy& anatomy, const Discretisation& discretisation);
+
 }  // namespace cardiac

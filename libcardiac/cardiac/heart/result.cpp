@@ -4,6 +4,7 @@
 #include <limits>
 
 #include <cardiac/core/units.hpp>
+#include <cardiac/heart/reduced_points.hpp>
 #include <cardiac/strain/affine_parameters.hpp>
 #include <cardiac/strain/segment_strain.hpp>
 
@@ -149,11 +150,12 @@ BeatResult describe_path(const Ventricle& ventricle, const std::vector<ControlNo
   out.ventricles.push_back(summarise(path, key, false, out.has_beat));
   if (ventricle.right_cavity)
     out.ventricles.push_back(summarise(path, right_key_steps(path, protocol), true, out.has_beat));
-  const auto& points = told.discretisation.points;
+  const polyaffine::WallPoints points = strain_points(anatomy, d);
+  const polyaffine::FieldTable table = polyaffine::deformation_table(*d.basis, points);
   const SegmentGauge gauge(*anatomy.coordinates, points);
   const polyaffine::DisplacementMap displacement(*d.basis, points.tet, points.barycentric);
   const auto positions = [&](const Vector& c) { return Points(gauge.positions() + displacement.apply(c)); };
-  const auto gradients = [&](const Vector& c) { return polyaffine::evaluate_field(told.wall->table(), c); };
+  const auto gradients = [&](const Vector& c) { return polyaffine::evaluate_field(table, c); };
   const auto* frames = d.layout.follows_segments ? d.frame_basis.get() : nullptr;
 
   const Matrix F_ed = gradients(path.steps[key.ed].c);

@@ -159,22 +159,6 @@ void set_points(const BoxCells& boxes, Places& out) {
   }
 }
 
-template <class Values>
-void append_columns(const Values& more, Values& out) {
-  out.conservativeResize(Eigen::NoChange, out.cols() + more.cols());
-  out.rightCols(more.cols()) = more;
-}
-
-template <class Places>
-void append(const Places& more, Places& out) {
-  const auto first = static_cast<int>(out.tet.size());
-  for (std::size_t k = 1; k < more.starts.size(); ++k) out.starts.push_back(first + more.starts[k]);
-  out.tet.insert(out.tet.end(), more.tet.begin(), more.tet.end());
-  append_columns(more.barycentric, out.barycentric);
-  out.weights.conservativeResize(first + more.weights.size());
-  out.weights.tail(more.weights.size()) = more.weights;
-}
-
 }  // namespace
 
 WallPoints gauss_cells(const WallPoints& candidates, const std::vector<int>& cell, const Points& coordinates,
@@ -228,12 +212,7 @@ SurfacePoints gauss_surface_cells(const SurfacePoints& candidates, const std::ve
                            candidates.X_xi(Eigen::all, rest),
                            candidates.X_eta(Eigen::all, rest),
                            {}};
-  const SurfacePoints more =
-      compress_surface_cells(part, at(cell, rest), coordinates(Eigen::all, rest), otherwise);
-  append(more, out);
-  append_columns(more.X, out.X);
-  append_columns(more.X_xi, out.X_xi);
-  append_columns(more.X_eta, out.X_eta);
+  append(compress_surface_cells(part, at(cell, rest), coordinates(Eigen::all, rest), otherwise), out);
   return out;
 }
 

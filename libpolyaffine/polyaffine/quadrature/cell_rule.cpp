@@ -56,7 +56,34 @@ WallPoints select(const WallPoints& candidates, const std::vector<std::vector<in
   return out;
 }
 
+template <class Values>
+void append_columns(const Values& more, Values& out) {
+  out.conservativeResize(Eigen::NoChange, out.cols() + more.cols());
+  out.rightCols(more.cols()) = more;
+}
+
+template <class Places>
+void append_places(const Places& more, Places& out) {
+  const auto first = static_cast<int>(out.tet.size());
+  for (std::size_t k = 1; k < more.starts.size(); ++k) out.starts.push_back(first + more.starts[k]);
+  out.tet.insert(out.tet.end(), more.tet.begin(), more.tet.end());
+  append_columns(more.barycentric, out.barycentric);
+  out.weights.conservativeResize(first + more.weights.size());
+  out.weights.tail(more.weights.size()) = more.weights;
+}
+
 }  // namespace
+
+void append(const WallPoints& more, WallPoints& rule) {
+  append_places(more, rule);
+}
+
+void append(const SurfacePoints& more, SurfacePoints& rule) {
+  append_places(more, rule);
+  append_columns(more.X, rule.X);
+  append_columns(more.X_xi, rule.X_xi);
+  append_columns(more.X_eta, rule.X_eta);
+}
 
 WallPoints compress_cells(const WallPoints& candidates, const std::vector<int>& cell,
                           const Points& coordinates, const CellDegree& degree) {

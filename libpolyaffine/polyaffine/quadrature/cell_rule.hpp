@@ -25,6 +25,10 @@ WallPoints compress_cells(const WallPoints& candidates, const std::vector<int>& 
 SurfacePoints compress_surface_cells(const SurfacePoints& candidates, const std::vector<int>& cell,
                                      const Matrix& coordinates, int degree);
 
+/// Puts the blocks of `more` after those of a rule.
+void append(const WallPoints& more, WallPoints& rule);
+void append(const SurfacePoints& more, SurfacePoints& rule);
+
 /// The candidates themselves, sorted into one block a cell.
 WallPoints group_cells(const WallPoints& candidates, const std::vector<int>& cell);
 

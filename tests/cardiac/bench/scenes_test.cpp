@@ -14,17 +14,18 @@ TEST(BenchScenes, AreThoseOfTheTask) {
   std::vector<std::string> names;
   for (const BenchScene& scene : bench_scenes()) names.push_back(scene.name);
   EXPECT_EQ(names, (std::vector<std::string>{"ellipsoid_passive", "end_systole", "end_systole_scar",
-                                             "compliance_0.3", "compliance_0.4", "compliance_0.45",
-                                             "compliance_0.49", "compliance_0.499", "compliance_0.4999"}));
+                                             "end_systole_human", "end_systole_asymmetric", "compliance_0.3",
+                                             "compliance_0.4", "compliance_0.45", "compliance_0.49",
+                                             "compliance_0.499", "compliance_0.4999"}));
 }
 
 TEST(BenchScenes, AreValidProtocolsWithTheConstantsOfTheTask) {
   const auto law = [](std::size_t k) { return parse_protocol(bench_scenes()[k].protocol, "scene").tissue; };
   EXPECT_NEAR(law(0).mu_kPa, 10 / (2 * 1.49), 1e-12);
   EXPECT_NEAR(law(0).bulk_modulus_kPa, 10 / (3 * (1 - 2 * 0.49)), 1e-9);
-  EXPECT_NEAR(law(3).bulk_modulus_kPa, 10 / (3 * 0.4), 1e-9);
-  EXPECT_NEAR(law(8).bulk_modulus_kPa, 10 / (3 * 0.0002), 1e-6);
-  for (const std::size_t k : {1, 2}) {
+  EXPECT_NEAR(law(5).bulk_modulus_kPa, 10 / (3 * 0.4), 1e-9);
+  EXPECT_NEAR(law(10).bulk_modulus_kPa, 10 / (3 * 0.0002), 1e-6);
+  for (const std::size_t k : {1, 2, 3, 4}) {
     EXPECT_EQ(law(k).law, protocol::TissueLaw::guccione);
     EXPECT_EQ(law(k).bulk_modulus_kPa, 300);
     EXPECT_EQ(law(k).viscosity_kPa_ms, 0);
@@ -47,6 +48,24 @@ TEST(BenchScenes, ScarWeakensSegmentsSevenAndEight) {
   EXPECT_NEAR(scar[1].tension_kPa(place(0.85, 0)), 75, 1e-9);      // basal anterior
   EXPECT_NEAR(scar[1].tension_kPa(place(0.5, 90)), 45, 1e-9);      // half way on the border 8|9
   EXPECT_NEAR(scar[1].tension_kPa(place(0.5, 90 + 7)), 75, 1e-9);  // the border is 6° wide
+}
+
+TEST(BenchScenes, AsymmetricWallVariesInThicknessAndTensionByFortyPercent) {
+  const BenchScene& scene = bench_scenes()[4];
+  const auto thickness = [&](double psi_deg) {
+    const double psi = psi_deg * polyaffine::kPi / 180;
+    const Vec3 out(std::sin(psi), std::cos(psi), 0);  // at z = 0
+    return (scene.to_wall(10 * out + 5 * Vec3::UnitZ()) - scene.to_wall(7 * out + 5 * Vec3::UnitZ())).norm();
+  };
+  EXPECT_NEAR(thickness(0) / thickness(90), 1.2, 0.02);  // the plane cuts the ellipsoids at other radii
+  EXPECT_NEAR(thickness(180) / thickness(90), 0.8, 0.02);
+  EXPECT_NEAR(scene.path[0].tension_kPa({0, 8, 0}), 60, 1e-9);
+  EXPECT_NEAR(scene.path[0].tension_kPa({0, -8, 0}), 90, 1e-9);
+  for (double height = -0.1; height <= 1; height += 0.1)
+    for (double psi = -180; psi < 180; psi += 40) {
+      const Vec3 X = place(height, psi);
+      EXPECT_LT((scene.to_ellipsoid(scene.to_wall(X)) - X).norm(), 1e-12);
+    }
 }
 
 TEST(BenchScenes, SegmentsAreThoseOfTheMesh) {
