@@ -21,9 +21,9 @@ struct Series {
 constexpr std::array<Series, 7> kSeries{
     {{"fem_p1", "", "", "linear full order (unknowns)", "#7f7f7f", Shape::square},
      {"fem_p2", "", "", "quadratic full order (unknowns)", "#222222", Shape::circle},
-     {"polyaffine", "fast", "cells", "fast, compressed points (nodes)", "#0072b2", Shape::triangle},
+     {"polyaffine", "fast", "cells", "fast, points of cells (nodes)", "#0072b2", Shape::triangle},
      {"polyaffine", "fast", "gauss", "fast, all Gauss points", "#0072b2", Shape::triangle},
-     {"polyaffine", "accurate", "cells", "accurate, compressed points (nodes)", "#d55e00", Shape::diamond},
+     {"polyaffine", "accurate", "cells", "accurate, points of cells (nodes)", "#d55e00", Shape::diamond},
      {"polyaffine", "accurate", "gauss", "accurate, all Gauss points", "#d55e00", Shape::diamond},
      {"polyaffine", "", "", "affine frames of the cube (zones)", "#009e73", Shape::triangle}}};
 
