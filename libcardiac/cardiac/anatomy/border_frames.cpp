@@ -17,9 +17,8 @@ namespace {
 constexpr double kBeside = 1e-3;  // rad
 
 int kind_at(const std::vector<int>& kind, int ring, double psi) {
-  const int n = aha_ring_size(ring);
-  const int sector = static_cast<int>(std::floor(psi * n / (2 * kPi) + 0.5));
-  return kind[aha_ring_first(ring) + (sector % n + n) % n - 1];
+  const double middle_height = (ring - 0.5) / 3;
+  return kind[aha_segment(middle_height, psi) - 1];
 }
 
 }  // namespace

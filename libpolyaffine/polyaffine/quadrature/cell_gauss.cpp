@@ -13,11 +13,7 @@ constexpr int kElementsTried = 12;
 
 // Orthonormal Legendre polynomials on [0, 1] of degrees below n.
 Vector orthonormal(int n, double x) {
-  Vector p(n);
-  p[0] = 1;
-  const double s = 2 * x - 1;
-  if (n > 1) p[1] = s;
-  for (int k = 1; k + 1 < n; ++k) p[k + 1] = ((2 * k + 1) * s * p[k] - k * p[k - 1]) / (k + 1);
+  Vector p = legendre(n - 1, x);
   for (int k = 0; k < n; ++k) p[k] *= std::sqrt(2 * k + 1.0);
   return p;
 }

@@ -10,16 +10,6 @@
 namespace polyaffine {
 namespace {
 
-// Legendre polynomials to degree n at x in [0, 1].
-Vector legendre(int n, double x) {
-  Vector p(n + 1);
-  const double s = 2 * x - 1;
-  p[0] = 1;
-  if (n > 0) p[1] = s;
-  for (int k = 1; k < n; ++k) p[k + 1] = ((2 * k + 1) * s * p[k] - k * p[k - 1]) / (k + 1);
-  return p;
-}
-
 std::vector<std::array<int, 3>> exponents(const CellDegree& degree) {
   std::vector<std::array<int, 3>> out;
   const auto share = [&](int k, int e) {
@@ -73,6 +63,15 @@ void append_places(const Places& more, Places& out) {
 }
 
 }  // namespace
+
+Vector legendre(int n, double x) {
+  Vector p(n + 1);
+  const double s = 2 * x - 1;
+  p[0] = 1;
+  if (n > 0) p[1] = s;
+  for (int k = 1; k < n; ++k) p[k + 1] = ((2 * k + 1) * s * p[k] - k * p[k - 1]) / (k + 1);
+  return p;
+}
 
 void append(const WallPoints& more, WallPoints& rule) {
   append_places(more, rule);

@@ -11,6 +11,9 @@ namespace polyaffine {
 /// P_a(x)P_b(y)P_c(z) with a/degree[0] + b/degree[1] + c/degree[2] ≤ 1.
 using CellDegree = std::array<int, 3>;
 
+/// Legendre polynomials P_0 … P_n of [0, 1], each 1 at x = 1.
+Vector legendre(int n, double x);
+
 /// Few points a cell instead of many: candidate points (Gauss points of a mesh) that belong to cell[p], with
 /// coordinates (3 × candidates, each 0 to 1 in the cell), are replaced, cell by cell, by at most as many of
 /// them as there are polynomials of the degree, with positive weights that integrate these polynomials over

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "support/aha_frames.hpp"
 #include "support/land_ellipsoid.hpp"
 
 namespace cardiac {
@@ -13,17 +14,11 @@ namespace {
 using polyaffine::FrameSample;
 using polyaffine::Vec3;
 using polyaffine::Vec4;
+using testing::aha_frames;
 using testing::LandEllipsoid;
 
-std::shared_ptr<const SegmentFrames> aha_frames() {
-  const auto& land = LandEllipsoid::get();
-  return std::make_shared<SegmentFrames>(land.coordinates, frame_layout(land.mesh, *land.coordinates), true);
-}
-
 BorderFrames with_borders(const std::vector<int>& weak) {
-  std::vector<int> kind(kBothSegments, 0);
-  for (const int s : weak) kind[s - 1] = 1;
-  return {aha_frames(), kind};
+  return {aha_frames(), testing::kinds_of(weak)};
 }
 
 TEST(BorderFrames, OneForEveryBorderAndCorner) {

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "support/aha_frames.hpp"
 #include "support/land_ellipsoid.hpp"
 
 namespace cardiac {
@@ -14,22 +15,12 @@ namespace {
 using polyaffine::CellPlace;
 using polyaffine::Vec3;
 using polyaffine::Vec4;
+using testing::aha_frames;
 using testing::LandEllipsoid;
-
-std::shared_ptr<const SegmentFrames> aha_frames() {
-  const auto& land = LandEllipsoid::get();
-  return std::make_shared<SegmentFrames>(land.coordinates, frame_layout(land.mesh, *land.coordinates), true);
-}
-
-std::vector<int> kinds(const std::vector<int>& weak) {
-  std::vector<int> out(kBothSegments, 0);
-  for (const int s : weak) out[s - 1] = 1;
-  return out;
-}
 
 TEST(SegmentCells, AreThoseOfTheFramesWhereNoSegmentDiffers) {
   const auto frames = aha_frames();
-  const SegmentCells cells(frames, kinds({}));
+  const SegmentCells cells(frames, testing::kinds_of({}));
   std::set<int> seen;
   for (int t = 0; t < LandEllipsoid::get().mesh.num_tets(); ++t) {
     const auto whole = frames->point_cell(t, Vec4::Constant(0.25));
@@ -46,7 +37,7 @@ class Divided : public ::testing::TestWithParam<std::vector<int>> {};
 
 TEST_P(Divided, PartsLieInOneSegmentWithPlacesFromBorderToBorder) {
   const auto frames = aha_frames();
-  const auto kind = kinds(GetParam());
+  const auto kind = testing::kinds_of(GetParam());
   const SegmentCells cells(frames, kind);
   const auto points = frames->coordinates().space().wall_points(4);
   std::map<int, std::set<int>> kinds_of, wholes_of;
@@ -77,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(SegmentCells, Divided,
 // Within a part the place varies smoothly: a step of the point moves it in proportion.
 TEST(SegmentCells, PlacesAreSmoothWithinAPart) {
   const auto frames = aha_frames();
-  const SegmentCells cells(frames, kinds({7, 8}));
+  const SegmentCells cells(frames, testing::kinds_of({7, 8}));
   int compared = 0;
   for (int t = 0; t < LandEllipsoid::get().mesh.num_tets(); ++t) {
     const Vec4 l = Vec4::Constant(0.25), d = 1e-4 * (Vec4::Unit(1) - Vec4::Unit(0));
