@@ -31,11 +31,9 @@ constexpr int kStrainDegree = 2;
 // Corners are asked for their cell this share of the way to the middle of the element: one that only touches
 // a border is not crossed by it, and rounding does not decide.
 constexpr double kDrawnIn = 1e-3;
-// Gauss points of a cell through the depth, in which fibres turn by 120°, and along the wall; there, where
-// functions are quadratic; and in the wide cells at the axis, in which the wall bends most.
-constexpr int kDepth = 4, kAlong = 2, kAlongBent = 3, kAlongApex = 4;
-// On surfaces, along the wall, and at the axis.
-constexpr int kSurface = 3, kSurfaceApex = 5;
+// Gauss points of a cell of strain points, along the wall and through its depth, in which fibres turn by
+// 120°.
+constexpr int kStrainAlong = 2, kStrainDepth = 4;
 // Polynomials kept exact in a cell that is no box, along u, ψ and the depth, the second where functions are
 // quadratic along the wall; and their total degree on a surface.
 constexpr polyaffine::CellDegree kCellDegree{4, 4, 8}, kBentCellDegree{6, 6, 8};
@@ -149,14 +147,30 @@ Cells region_cells(const Anatomy& anatomy, const Discretisation& d, const WallPo
   return out;
 }
 
-// Whether functions are quadratic along and around the wall.
-std::array<bool, 2> bent(const polyaffine::FrameBasis& basis) {
-  std::array<bool, 2> out{};
+// Highest power of the frames' functions along, around and through the wall; at least 1.
+std::array<int, 3> degrees(const polyaffine::FrameBasis& basis) {
+  std::array<int, 3> out{1, 1, 1};
   for (const auto& frame : basis.frames())
     if (frame.local_axes)
       for (const Monomial& m : frame.monomials)
-        for (int k = 0; k < 2; ++k) out[k] = out[k] || m[k] > 1;
+        for (int k = 0; k < 3; ++k) out[k] = std::max(out[k], static_cast<int>(m[k]));
   return out;
+}
+
+// Gauss points of cells: of the wall by what its functions can do, in its cells at the axis, where it bends
+// most, as many each way; of surfaces, whose error no other point makes up for, one more where the wall can
+// bend within a cell.
+struct Counts {
+  polyaffine::CellCounts wall, wall_at_apex, surface, surface_at_apex;
+};
+Counts counts_for(const std::array<int, 3>& degree) {
+  const int depth = std::max(3, degree[2] + 1);
+  const bool bent = degree[0] > 1 || degree[1] > 1;
+  const int surface = bent ? 3 : 2, surface_at_apex = bent ? depth + 1 : depth;
+  return {{degree[0] + 1, degree[1] + 1, depth},
+          {depth, depth, depth},
+          {surface, surface, 1},
+          {surface_at_apex, surface_at_apex, 1}};
 }
 
 }  // namespace
@@ -202,14 +216,15 @@ void add_reduced_points(const Anatomy& anatomy, const Protocol& protocol, Discre
   const VentricularCoordinates& heart = *anatomy.coordinates;
   const LagrangeBasis& geometry = heart.space();
   const bool all_points = protocol.reduction.integration == protocol::Integration::gauss;
-  const std::array<bool, 2> quadratic = bent(*out.frame_basis);
-  const polyaffine::CellDegree degree = quadratic[0] || quadratic[1] ? kBentCellDegree : kCellDegree;
+  const std::array<int, 3> degree = degrees(*out.frame_basis);
+  const Counts counts = counts_for(degree);
+  const polyaffine::CellDegree exact = degree[0] > 1 || degree[1] > 1 ? kBentCellDegree : kCellDegree;
   const auto surfaces = {&out.cavity_points, &out.right_cavity_points, &out.epicardium_points};
   if (!out.frames) {  // sigmoid weights: regions are no boxes
     const WallPoints candidates = geometry.wall_points(kCandidateDegree);
     const Cells cells = region_cells(anatomy, out, candidates);
     out.points = all_points ? polyaffine::group_cells(candidates, cells.cell)
-                            : polyaffine::compress_cells(candidates, cells.cell, cells.place, degree);
+                            : polyaffine::compress_cells(candidates, cells.cell, cells.place, exact);
     add_surface_points(
         anatomy, protocol, geometry,
         [rule = polyaffine::triangle_rule(kCandidateDegree)](int, const LagrangeBasis::FaceCorners&) {
@@ -228,18 +243,13 @@ void add_reduced_points(const Anatomy& anatomy, const Protocol& protocol, Discre
   const SegmentCells cells(out.frames, kinds_of_points(protocol));
   const CandidatePoints candidates = tent_candidates(heart, cells);
   const Cells wall = tent_cells(cells, candidates.wall);
-  const auto counts = [&](int cell) {
-    polyaffine::CellCounts n{quadratic[0] ? kAlongBent : kAlong, quadratic[1] ? kAlongBent : kAlong, kDepth};
-    if (cells.at_apex(cell)) n[0] = n[1] = kAlongApex;
-    return n;
-  };
-  out.points = all_points
-                   ? polyaffine::group_cells(candidates.wall, wall.cell)
-                   : polyaffine::gauss_cells(candidates.wall, wall.cell, wall.place, cells, counts, degree);
+  const auto wall_counts = [&](int cell) { return cells.at_apex(cell) ? counts.wall_at_apex : counts.wall; };
+  out.points =
+      all_points ? polyaffine::group_cells(candidates.wall, wall.cell)
+                 : polyaffine::gauss_cells(candidates.wall, wall.cell, wall.place, cells, wall_counts, exact);
   add_surface_points(anatomy, protocol, geometry, candidates.face, out);
   const auto surface_counts = [&](int cell) {
-    const int n = cells.at_apex(cell) ? kSurfaceApex : kSurface;
-    return polyaffine::CellCounts{n, n, 1};
+    return cells.at_apex(cell) ? counts.surface_at_apex : counts.surface;
   };
   for (SurfacePoints* points : surfaces) {
     if (points->tet.empty()) continue;
@@ -258,7 +268,7 @@ polyaffine::WallPoints strain_points(const Anatomy& anatomy, const Discretisatio
     (anatomy.segment[candidates.tet[q]] > kAhaSegments ? right : left).push_back(static_cast<int>(q));
   const WallPoints left_wall = subset(candidates, left);
   const Cells of_left = tent_cells(cells, left_wall);
-  const auto counts = [](int) { return polyaffine::CellCounts{kAlong, kAlong, kDepth}; };
+  const auto counts = [](int) { return polyaffine::CellCounts{kStrainAlong, kStrainAlong, kStrainDepth}; };
   WallPoints out =
       polyaffine::gauss_cells(left_wall, of_left.cell, of_left.place, cells, counts, kCellDegree);
   if (right.empty()) return out;

@@ -252,12 +252,7 @@ void FieldEnergy::add_tangent(const Motion& motion, LinearSystem& system, double
             D.row(pressures[b]).segment<3>(3 * functions[a]) +=
                 rows[slot].row(static_cast<Eigen::Index>(b)).segment<3>(static_cast<Eigen::Index>(3 * a));
       });
-  if (!global) return;
-  const Matrix weighted = scale * pressure_->bulk_modulus * inverse_mass_.apply(D);
-  Matrix gram = Matrix::Zero(D.cols(), D.cols());
-  gram.triangularView<Eigen::Lower>() += D.transpose() * weighted;
-  gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
-  system.add_dense(gram);
+  if (global) system.add_gram(inverse_mass_.half(D), scale * pressure_->bulk_modulus);
 }
 
 Vector FieldEnergy::pressure(const Vector& c) const {

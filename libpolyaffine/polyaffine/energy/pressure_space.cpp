@@ -17,13 +17,19 @@ bool every_function_in_one_block(const PressureSpace& space) {
   return true;
 }
 
-Matrix inverse(const Matrix& M) {
+// L⁻¹ of M = LLᵀ.
+Matrix inverse_factor(const Matrix& M) {
   const Eigen::LLT<Matrix> cholesky(M);
   if (cholesky.info() != Eigen::Success || cholesky.rcond() < 1e-13)
     throw ComputationError(
         "pressure space: its mass matrix is singular; a pressure function has no integration points "
         "or depends on others");
-  return cholesky.solve(Matrix::Identity(M.rows(), M.cols()));
+  return cholesky.matrixL().solve(Matrix::Identity(M.rows(), M.cols()));
+}
+
+Matrix inverse(const Matrix& M) {
+  const Matrix half = inverse_factor(M);
+  return half.transpose() * half;
 }
 
 }  // namespace
@@ -64,7 +70,9 @@ InverseMass::InverseMass(const PressureSpace& space, const FieldTable& table)
       dense_(block.functions, block.functions) += M;
     }
   }
-  if (!local_) dense_ = inverse(dense_);
+  if (local_) return;
+  half_ = inverse_factor(dense_);
+  dense_ = half_.transpose() * half_;
 }
 
 Matrix InverseMass::apply(const Matrix& x) const {

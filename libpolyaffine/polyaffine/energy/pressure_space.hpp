@@ -43,12 +43,14 @@ class InverseMass {
   const Matrix& block(std::size_t k) const { return blocks_[k]; }
   /// M⁻¹ x, columns of x by pressure function.
   Matrix apply(const Matrix& x) const;
+  /// L⁻¹ x with M = LLᵀ, of a mass that is kept as one matrix: its products are those with M⁻¹.
+  Matrix half(const Matrix& x) const { return half_.triangularView<Eigen::Lower>() * x; }
 
  private:
   bool local_ = false;
   std::vector<std::vector<int>> functions_;
   std::vector<Matrix> blocks_;
-  Matrix dense_;
+  Matrix dense_, half_;
 };
 
 /// One constant pressure a block: with one element a block the mean dilatation of each element.

@@ -78,7 +78,7 @@ void scatter_add_points(double* base, int lanes, const Pack* v) {
 }
 
 inline Pack broadcast(double value) {
-  return Pack{} + value;
+  return value - Pack{};  // a sum with zero would be computed, for the sake of −0
 }
 
 /// Sum of the lanes, in their order.

@@ -8,11 +8,11 @@ namespace {
 
 class DenseSystem : public LinearSystem {
  public:
-  DenseSystem(int n, std::vector<char> fixed) : K_(n, n), fixed_(std::move(fixed)) { fixed_.resize(n, 0); }
-
-  void set_zero() override { K_.setZero(); }
+  DenseSystem(int n, std::vector<char> fixed) : K_(Matrix::Zero(n, n)), fixed_(std::move(fixed)) { fixed_.resize(n, 0); }
 
   // Only the lower triangle is kept.
+  void set_zero() override { K_.triangularView<Eigen::Lower>().setZero(); }
+
   void add(const std::vector<int>& functions, const Matrix& K) override {
     for (std::size_t b = 0; b < functions.size(); ++b)
       for (int j = 0; j < 3; ++j) {
@@ -28,6 +28,10 @@ class DenseSystem : public LinearSystem {
 
   void add_dense(const Matrix& K) override { K_.triangularView<Eigen::Lower>() += K; }
 
+  void add_gram(const Matrix& X, double factor) override {
+    K_.selfadjointView<Eigen::Lower>().rankUpdate(X.transpose(), factor);
+  }
+
   bool factorise() override {
     for (std::size_t i = 0; i < fixed_.size(); ++i)
       if (fixed_[i]) {
@@ -36,10 +40,10 @@ class DenseSystem : public LinearSystem {
         K_.col(k).setZero();
         K_(k, k) = 1;
       }
-    if (!K_.allFinite()) return false;
     cholesky_.compute(K_);
     positive_ = cholesky_.info() == Eigen::Success;
-    if (positive_) return smallest_pivot() > 1e-13;
+    if (positive_) return cholesky_.matrixLLT().diagonal().allFinite() && smallest_pivot() > 1e-13;
+    if (!K_.allFinite()) return false;
     lu_.compute(Matrix(K_.selfadjointView<Eigen::Lower>()));
     return lu_.rcond() > 1e-14;  // below this no digit of the solution is left
   }

@@ -19,6 +19,8 @@ class LinearSystem {
   virtual void add(const std::vector<int>& functions, const Matrix& K) = 0;
   /// Adds a matrix over all unknowns; only for systems stored densely (std::logic_error otherwise).
   virtual void add_dense(const Matrix& K) = 0;
+  /// Adds factor · XᵀX, X with a column for each unknown; for the same systems.
+  virtual void add_gram(const Matrix& X, double factor) { add_dense(factor * X.transpose() * X); }
   /// False when the matrix is not finite or singular to working precision (dense: elimination leaves less
   /// than 1e-13 of a diagonal entry, or the reciprocal condition is below 1e-14).
   virtual bool factorise() = 0;

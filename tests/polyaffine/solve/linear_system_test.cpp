@@ -115,6 +115,13 @@ TEST(LinearSystem, OnlyDenseStorageTakesAFullMatrix) {
   dense->add_dense(4 * one);
   ASSERT_TRUE(dense->factorise());
   EXPECT_LT((dense->solve(one) - 0.25 * one).norm(), 1e-14);
+  const Matrix X = Matrix::Constant(2, blocks.unknowns(), 0.5);
+  const Matrix sum = 4 * one + 3 * X.transpose() * X;
+  dense->set_zero();
+  dense->add_dense(4 * one);
+  dense->add_gram(X, 3);
+  ASSERT_TRUE(dense->factorise());
+  EXPECT_LT((sum * dense->solve(one) - one).norm(), 1e-13);
   EXPECT_THROW(sparse_system({&blocks.table})->add_dense(one), std::logic_error);
 }
 
