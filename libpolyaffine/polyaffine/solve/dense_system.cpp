@@ -1,5 +1,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <optional>
 
 #include "polyaffine/solve/linear_system.hpp"
 
@@ -40,16 +41,17 @@ class DenseSystem : public LinearSystem {
         K_.col(k).setZero();
         K_(k, k) = 1;
       }
+    lu_.reset();
     cholesky_.compute(K_);
     positive_ = cholesky_.info() == Eigen::Success;
     if (positive_) return cholesky_.matrixLLT().diagonal().allFinite() && smallest_pivot() > 1e-13;
     if (!K_.allFinite()) return false;
-    lu_.compute(Matrix(K_.selfadjointView<Eigen::Lower>()));
-    return lu_.rcond() > 1e-14;  // below this no digit of the solution is left
+    lu_.emplace(Matrix(K_.selfadjointView<Eigen::Lower>()));
+    return lu_->rcond() > 1e-14;  // below this no digit of the solution is left
   }
 
   Matrix solve(const Matrix& rhs) const override {
-    if (!positive_) return lu_.solve(rhs);
+    if (!positive_) return lu_->solve(rhs);
     if (rhs.cols() > 1) return cholesky_.solve(rhs);
     Vector x = rhs;  // for one vector the substitution of a matrix spends its time on copies of the factor
     cholesky_.matrixL().solveInPlace(x);
@@ -69,7 +71,7 @@ class DenseSystem : public LinearSystem {
   Matrix K_;
   std::vector<char> fixed_;
   Eigen::LLT<Matrix> cholesky_;
-  Eigen::PartialPivLU<Matrix> lu_;
+  std::optional<Eigen::PartialPivLU<Matrix>> lu_;
   bool positive_ = false;
 };
 
