@@ -67,11 +67,11 @@ struct Model {
   LandSolution solve(const std::string& name) {
     const auto system = sparse_system({&wall->table(), &surface->table()}, problem.fixed, true);
     LoadOptions options;
-    options.largest_step = 0.25;
+    options.largest_step = 0.1;  // the factors of one step then serve most of the next
     options.newton.tolerance = 1e-6;
     options.newton.dilatation_tolerance = 1e-7;
     options.newton.contraction = 0.25;
-    options.path_slack = 1e5;  // on the way there a tenth of the forces: only the last state counts
+    options.path_slack = 3e4;  // on the way there 3 % of the forces: only the last state counts
     c = Vector::Zero(wall->table().num_unknowns());
     const LoadReport report = load_stepping(problem, *system, c, options);
     if (!report.converged())

@@ -10,7 +10,7 @@
 namespace polyaffine {
 namespace {
 
-constexpr int kChunk = 256;          // blocks whose local matrices are kept before they are added in order
+constexpr int kChunk = 64;           // blocks whose local matrices are kept before they are added in order
 constexpr int kSerialPoints = 4096;  // points whose forces one thread computes sooner than it wakes another
 
 void scatter(const std::vector<int>& functions, const Matrix& local, Vector& global) {

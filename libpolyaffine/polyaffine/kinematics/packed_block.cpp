@@ -95,7 +95,8 @@ void add_pack(const Group& g, int p, const double* c, Mat3Pack& M) {
 
 template <int d>
 void force_of_group(const Group& g, int packs, const Mat3Pack* S, double* force) {
-  std::vector<double> total(static_cast<std::size_t>(3 * g.num_functions * kLanes), 0.0);
+  thread_local std::vector<double> total;
+  total.assign(static_cast<std::size_t>(3 * g.num_functions * kLanes), 0.0);
   const double* rows = g.by_pack.data();
   for (int p = 0; p < packs; ++p) {
     Pack Y[3 * d];
@@ -130,11 +131,10 @@ PackedBlock::PackedBlock(const PointBlock& block, const FieldTable& table) : fun
   for (const auto& group : block.groups) groups_.push_back(pack_group(group, block, packs));
 }
 
-std::vector<double> PackedBlock::gather(const Vector& c) const {
-  std::vector<double> own;
-  own.reserve(3 * functions_.size());
-  for (const int f : functions_) own.insert(own.end(), {c[3 * f], c[3 * f + 1], c[3 * f + 2]});
-  return own;
+void PackedBlock::gather(const Vector& c, std::vector<double>& own) const {
+  own.resize(3 * functions_.size());
+  double* at = own.data();
+  for (const int f : functions_) at = std::copy_n(c.data() + 3 * static_cast<std::ptrdiff_t>(f), 3, at);
 }
 
 Mat3Pack PackedBlock::base(int pack) const {
@@ -146,7 +146,8 @@ Mat3Pack PackedBlock::base(int pack) const {
 }
 
 void PackedBlock::field(const Vector& c, bool with_base, Mat3Pack* M) const {
-  const std::vector<double> own = gather(c);
+  thread_local std::vector<double> own;
+  gather(c, own);
   for (int p = 0; p < num_packs(); ++p) {
     M[p] = with_base ? base(p) : Mat3Pack{};
     const double* at = own.data();
@@ -158,7 +159,9 @@ void PackedBlock::field(const Vector& c, bool with_base, Mat3Pack* M) const {
 }
 
 void PackedBlock::field_and_rate(const Vector& c, const Vector& rate, Mat3Pack* M, Mat3Pack* M_rate) const {
-  const std::vector<double> own = gather(c), own_rate = gather(rate);
+  thread_local std::vector<double> own, own_rate;
+  gather(c, own);
+  gather(rate, own_rate);
   for (int p = 0; p < num_packs(); ++p) {
     M[p] = base(p);
     M_rate[p] = Mat3Pack{};

@@ -48,7 +48,7 @@ class PackedBlock {
   void force(const Mat3Pack* S, Matrix& out) const;
 
  private:
-  std::vector<double> gather(const Vector& c) const;
+  void gather(const Vector& c, std::vector<double>& own) const;
   Mat3Pack base(int pack) const;
 
   std::vector<PackPoints> points_;

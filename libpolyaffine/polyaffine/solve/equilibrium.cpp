@@ -7,6 +7,8 @@
 namespace polyaffine {
 namespace {
 
+constexpr double kProgress = 0.9;  // a step with a former tangent is taken where both residuals fall so far
+
 // Residuals of the mixed form at a state.
 struct Residual {
   Vector force;                  // R_u of the free unknowns
@@ -128,6 +130,19 @@ bool falls(const Residual& from, const Residual& to, double share, const NewtonO
          to.dilatation <= std::max(share * from.dilatation, options.dilatation_tolerance);
 }
 
+// Whether the tangent of a step serves another: the residuals fell to the share that is asked for, or pass
+// after a few more steps at this pace. A few cost no more than one with factors of its own.
+bool serves(const Residual& from, const Residual& to, const NewtonOptions& options) {
+  constexpr double kFew = 4;
+  if (falls(from, to, options.contraction, options)) return true;
+  if (options.contraction == 0 || !falls(from, to, kProgress, options)) return false;
+  const auto steps = [](double before, double after, double tolerance) {
+    return after <= tolerance ? 0 : std::log(tolerance / after) / std::log(after / before);
+  };
+  return steps(from.relative, to.relative, options.tolerance) <= kFew &&
+         steps(from.dilatation, to.dilatation, options.dilatation_tolerance) <= kFew;
+}
+
 MixedState moved(const MixedState& from, double length, const MixedState& step) {
   MixedState out = from;
   out.c += length * step.c;
@@ -200,7 +215,6 @@ Start start_at(const Equations& equations, const MixedState& state) {
 // `tangent`: the unknowns whose tangent the system holds the factors of, empty without one.
 NewtonReport newton_from(const Equations& equations, Start start, LinearSystem& system, Vector& tangent,
                          MixedState& state, const NewtonOptions& options) {
-  constexpr double kProgress = 0.9;  // a step with a former tangent is taken where both residuals fall so far
   NewtonReport report;
   auto& [x, now] = start;
   const auto stop = [&](StopReason reason) {
@@ -218,7 +232,7 @@ NewtonReport newton_from(const Equations& equations, Start start, LinearSystem& 
       const Vector direction = -system.solve(equations.condensed(tangent, now));
       MixedState trial = moved(x, 1, equations.step(tangent, now, direction));
       Residual next = equations.residual(trial);
-      if (!falls(now, next, options.contraction, options)) tangent.resize(0);
+      if (!serves(now, next, options)) tangent.resize(0);
       if (falls(now, next, kProgress, options)) {
         x = std::move(trial);
         now = std::move(next);
@@ -262,7 +276,7 @@ NewtonReport newton_from(const Equations& equations, Start start, LinearSystem& 
         continue;
       }
       report.shortened += shortening > 0;
-      if (!falls(now, next, options.contraction, options)) tangent.resize(0);
+      if (!serves(now, next, options)) tangent.resize(0);
       x = trial;
       now = std::move(next);
     }

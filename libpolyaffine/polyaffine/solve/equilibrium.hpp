@@ -41,8 +41,9 @@ struct NewtonOptions {
   double dilatation_tolerance = 1e-8;  ///< on the largest |M⁻¹ R_p|
   int max_iterations = 25;
   int max_halvings = 12;
-  /// A tangent and its factors serve further steps, those of a next load included, while each step lowers
-  /// both residuals to this share (simplified Newton, Deuflhard 2011, §2.1.2); 0: every step has its own.
+  /// A tangent and its factors serve further steps, those of a next load included, while each lowers both
+  /// residuals to this share or they would pass after four more such steps (simplified Newton, Deuflhard
+  /// 2011, §2.1.2); 0: every step has its own.
   double contraction = 0;
 };
 

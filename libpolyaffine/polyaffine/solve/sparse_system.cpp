@@ -12,9 +12,10 @@
 namespace polyaffine {
 namespace {
 
-// Lower triangle in compressed columns of unknowns that are numbered anew, function after function, so that
-// Cholesky fills in little. The pattern is kept on functions: those coupled to the one at place b are
-// coupled[start[b]] < ... ; each couple is a 3×3 block, the diagonal one lower triangular.
+// Lower triangle of unknowns that are numbered anew, function after function, so that Cholesky fills in
+// little. The pattern is kept on functions: those coupled to the one at place b are coupled[start[b]] < ... ;
+// each couple is a 3×3 block, of which the diagonal ones use the lower triangle. Blocks are summed one after
+// the other in memory and then copied to the compressed columns of CHOLMOD.
 class SparseSystem : public LinearSystem {
  public:
   SparseSystem(const std::vector<const FieldTable*>& tables, std::vector<char> fixed, bool definite_only)
@@ -42,27 +43,24 @@ class SparseSystem : public LinearSystem {
     if (numeric_) umfpack_dl_free_numeric(&numeric_);
   }
 
-  void set_zero() override { std::fill(values_.begin(), values_.end(), 0.0); }
+  void set_zero() override { std::fill(blocks_.begin(), blocks_.end(), 0.0); }
 
   void add(const std::vector<int>& functions, const Matrix& K) override {
-    for (std::size_t b = 0; b < functions.size(); ++b) {
+    targets_.clear();
+    for (int b = 0; b < std::ssize(functions); ++b) {
       const int fb = functions[b], pb = place_[fb];
       const int* coupled = coupled_.data() + start_[pb];
       const int* last = coupled_.data() + start_[pb + 1];
-      for (std::size_t a = 0; a < functions.size(); ++a) {
+      for (int a = 0; a < std::ssize(functions); ++a) {
         const int fa = functions[a], pa = place_[fa];
-        if (pa < pb || (held(fa) && fa != fb) || held(fb)) continue;
-        const std::ptrdiff_t rank = std::lower_bound(coupled, last, pa) - coupled;
-        const bool free = is_free(fa) && is_free(fb);
-        for (int j = 0; j < 3; ++j) {
-          double* column = values_.data() + columns_[3 * pb + j] + (3 * rank - j);
-          const double* from =
-              K.col(static_cast<Eigen::Index>(3 * b + j)).data() + static_cast<std::ptrdiff_t>(3 * a);
-          for (int i = rank == 0 ? j : 0; i < 3; ++i)
-            if (free || (!fixed_[3 * fa + i] && !fixed_[3 * fb + j])) column[i] += from[i];
-        }
+        if (pa < pb || held(fa) || held(fb)) continue;
+        double* block = blocks_.data() + 9 * (std::lower_bound(coupled, last, pa) - coupled_.data());
+        __builtin_prefetch(block, 1);  // spread over megabytes
+        __builtin_prefetch(block + 8, 1);
+        targets_.push_back({a, b, block});
       }
     }
+    for (const auto& [a, b, block] : targets_) Eigen::Map<Mat3>(block) += K.block<3, 3>(3 * a, 3 * b);
   }
 
   void add_dense(const Matrix&) override {
@@ -71,9 +69,7 @@ class SparseSystem : public LinearSystem {
 
   bool factorise() override {
     const SerialBlas serial;
-    for (std::size_t f = 0; f < place_.size(); ++f)
-      for (std::size_t k = 0; k < 3; ++k)
-        if (fixed_[3 * f + k]) values_[columns_[3 * place_[f] + k]] = 1;
+    fill_columns();
     if (!std::all_of(values_.begin(), values_.end(), [](double v) { return std::isfinite(v); })) return false;
     cholmod_sparse A = view();
     common_.status = CHOLMOD_OK;
@@ -96,10 +92,13 @@ class SparseSystem : public LinearSystem {
   bool positive_definite() const override { return positive_; }
 
  private:
+  struct Target {
+    int a, b;  // of a local matrix
+    double* block;
+  };
   using Couples = std::vector<std::vector<int>>;  // of function b with b and the functions after it
 
   bool held(int f) const { return fixed_[3 * f] && fixed_[3 * f + 1] && fixed_[3 * f + 2]; }
-  bool is_free(int f) const { return !fixed_[3 * f] && !fixed_[3 * f + 1] && !fixed_[3 * f + 2]; }
 
   static void sort(Couples& couples) {
     for (auto& list : couples) {
@@ -163,6 +162,24 @@ class SparseSystem : public LinearSystem {
       }
     }
     values_.assign(rows_.size(), 0.0);
+    blocks_.assign(9 * coupled_.size(), 0.0);
+    fixed_at_.resize(fixed_.size());
+    for (std::size_t f = 0; f < place_.size(); ++f)
+      std::copy_n(fixed_.data() + 3 * f, 3, fixed_at_.data() + 3 * static_cast<std::ptrdiff_t>(place_[f]));
+  }
+
+  void fill_columns() {
+    double* value = values_.data();
+    for (std::size_t b = 0; b + 1 < start_.size(); ++b)
+      for (std::size_t j = 0; j < 3; ++j) {
+        const bool fixed = fixed_at_[3 * b + j];
+        for (int couple = start_[b]; couple < start_[b + 1]; ++couple) {
+          const double* column = blocks_.data() + 9 * static_cast<std::ptrdiff_t>(couple) + 3 * j;
+          const auto a = static_cast<std::size_t>(coupled_[couple]);
+          for (std::size_t i = a == b ? j : 0; i < 3; ++i)
+            *value++ = fixed || fixed_at_[3 * a + i] ? (a == b && i == j ? 1.0 : 0.0) : column[i];
+        }
+      }
   }
 
   static cholmod_sparse lower_triangle(std::vector<SuiteSparse_long>& columns,
@@ -231,10 +248,12 @@ class SparseSystem : public LinearSystem {
 
   std::vector<char> fixed_;
   bool definite_only_;
-  std::vector<int> place_;  // of function f in the new order
+  std::vector<char> fixed_at_;  // the same in the new order
+  std::vector<int> place_;      // of function f in it
   std::vector<int> start_, coupled_;
   std::vector<SuiteSparse_long> columns_, rows_;
-  std::vector<double> values_;
+  std::vector<double> blocks_, values_;
+  std::vector<Target> targets_;  // of the matrix that is added
   std::vector<SuiteSparse_long> full_columns_, full_rows_;
   std::vector<double> full_values_;
   mutable cholmod_common common_{};
