@@ -98,7 +98,7 @@ Plan heart_plan() {
 
 Plan make_plan(const BenchScene& scene, bool quick) {
   if (scene.group == kCompliance) return compliance_plan();
-  if (!quick && (scene.name == "end_systole_human" || scene.to_wall)) return heart_plan();
+  if (scene.other_heart && !quick) return heart_plan();
   return quick ? quick_plan() : whole_plan();
 }
 

@@ -23,6 +23,7 @@ struct BenchScene {
       path;  ///< loads in numbers: equilibria reached one after the other from the unloaded wall at rest
   /// From a place of the ellipsoid to that of the wall and back; empty: the wall is the ellipsoid.
   std::function<Vec3(const Vec3&X)> to_wall{}, to_ellipsoid{};
+  bool other_heart = false;  ///< the presets alone are shown on it
 };
 
 inline constexpr auto kCompliance = "compliance";

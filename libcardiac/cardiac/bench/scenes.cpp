@@ -79,9 +79,18 @@ Vec3 across_from_endocardium(const Vec3& X, double factor) {
   return {share * X.x(), share * X.y(), X.z()};
 }
 
+BenchScene human(BenchScene scene) {
+  scene.group = scene.name = "end_systole_human";
+  scene.title = "End systole of a human ventricle";
+  scene.other_heart = true;
+  scene.shape = human_lv();
+  return scene;
+}
+
 BenchScene asymmetric(BenchScene scene) {
   scene.group = scene.name = "end_systole_asymmetric";
   scene.title = "End systole of an asymmetric wall";
+  scene.other_heart = true;
   scene.to_wall = [](const Vec3& X) { return across_from_endocardium(X, stretch(X)); };
   scene.to_ellipsoid = [](const Vec3& X) { return across_from_endocardium(X, 1 / stretch(X)); };
   scene.path = {{kPressure, [](const Vec3& X) {
@@ -118,13 +127,8 @@ const std::vector<BenchScene>& bench_scenes() {
          "End systole with a scar",
          shape,
          std::string(kEndSystole) + kScar,
-         {{kPressure, healthy_tension}, {kPressure, scar_tension}}},
-        {"end_systole_human",
-         "end_systole_human",
-         "End systole of a human ventricle",
-         human_lv(),
-         kEndSystole,
-         {{kPressure, healthy_tension}}}};
+         {{kPressure, healthy_tension}, {kPressure, scar_tension}}}};
+    out.push_back(human(out[1]));
     out.push_back(asymmetric(out[1]));
     for (const char* poisson : {"0.3", "0.4", "0.45", "0.49", "0.499", "0.4999"})
       out.push_back({kCompliance,
