@@ -203,6 +203,9 @@ polyaffine::DaeOptions BeatSystem::options(const protocol::Time& time) const {
       .setConstant(time.absolute_tolerance_mmHg * kPa_per_mmHg);
   out.error_weight = Vector::Ones(size());
   out.error_weight.tail(others).setConstant(std::sqrt(num_c_ / static_cast<double>(others)));
+  // While its valves are closed, the pressure of a cavity is the multiplier of its constant volume.
+  out.error_tested = Vector::Ones(size());
+  out.error_tested.segment(num_c_ + num_cavities_, num_cavities_).setZero();
   out.max_step = time.max_step_ms;
   return out;
 }

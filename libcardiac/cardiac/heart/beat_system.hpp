@@ -31,7 +31,8 @@ class BeatSystem : public polyaffine::DaeSystem {
   /// (a singular tangent) the wall keeps its rest.
   polyaffine::Vector start_consistently(HeartState& state);
   /// Tolerances per unknown. The error norm is a mean over all unknowns: volume and pressures are weighted so
-  /// that they count as much as the whole wall, however many coefficients it has.
+  /// that they count as much as the whole wall, however many coefficients it has. Newton's iterations meet
+  /// the pressures of the cavities to their tolerance; the error test leaves them out.
   polyaffine::DaeOptions options(const protocol::Time& time) const;
 
   /// Range of det F over the points in the state evaluated last; after a step that is the accepted one, but

@@ -14,7 +14,13 @@ namespace {
 
 constexpr double kChangeOfAlpha = 0.5;  // relative, that needs a new factorisation
 constexpr int kMaxIterations = 6;       // of Newton's method in a step
-constexpr double kStepGrowth = 1.3;     // that is worth changing the step for
+constexpr double kNewton = 0.2;         // its error over the tolerance of a step
+
+// Steps change by these factors alone, not by what the error would just allow: rounding then moves neither a
+// step nor, with it, the number of iterations, and the result is the same on all machines. For this the step
+// also stays where it would grow beyond the largest, instead of being cut to it.
+constexpr double kStepGrowth = 1.5, kStepCut = 0.5;
+constexpr double kNoGrowth = 1e10;
 
 using ConstMap = Eigen::Map<const Vector>;
 
@@ -198,7 +204,17 @@ DaeIntegrator::DaeIntegrator(DaeSystem& system, const DaeOptions& options, doubl
   check(IDASetLinearSolutionScaling(m.ida, SUNFALSE), "IDASetLinearSolutionScaling");
   check(IDASetDeltaCjLSetup(m.ida, kChangeOfAlpha), "IDASetDeltaCjLSetup");
   check(IDASetMaxNonlinIters(m.ida, kMaxIterations), "IDASetMaxNonlinIters");
-  check(IDASetEtaFixedStepBounds(m.ida, 1.0, kStepGrowth), "IDASetEtaFixedStepBounds");
+  check(IDASetNonlinConvCoef(m.ida, kNewton), "IDASetNonlinConvCoef");
+  check(IDASetEtaMax(m.ida, kStepGrowth), "IDASetEtaMax");
+  check(IDASetEtaMin(m.ida, kStepCut), "IDASetEtaMin");
+  check(IDASetEtaLow(m.ida, kStepCut), "IDASetEtaLow");
+  check(IDASetEtaMinErrFail(m.ida, kStepCut), "IDASetEtaMinErrFail");
+  if (options.error_tested.size() > 0) {
+    N_Vector tested = N_VMake_Serial(n, m.user.options.error_tested.data(), m.context);
+    check(IDASetId(m.ida, tested), "IDASetId");  // copies
+    N_VDestroy(tested);
+    check(IDASetSuppressAlg(m.ida, SUNTRUE), "IDASetSuppressAlg");
+  }
   if (options.max_step > 0) check(IDASetMaxStep(m.ida, options.max_step), "IDASetMaxStep");
   if (options.first_step > 0) check(IDASetInitStep(m.ida, options.first_step), "IDASetInitStep");
 }
@@ -207,6 +223,11 @@ DaeIntegrator::~DaeIntegrator() = default;
 
 DaeStatus DaeIntegrator::step(double limit) {
   auto& m = *impl_;
+  double h = 0;
+  check(IDAGetCurrentStep(m.ida, &h), "IDAGetCurrentStep");
+  const double largest = m.user.options.max_step;
+  const bool may_grow = largest <= 0 || kStepGrowth * h < largest;
+  check(IDASetEtaFixedStepBounds(m.ida, 1.0, may_grow ? kStepGrowth : kNoGrowth), "IDASetEtaFixedStepBounds");
   check(IDASetStopTime(m.ida, limit), "IDASetStopTime");
   double reached = m.t;
   const int flag = IDASolve(m.ida, limit, &reached, m.y, m.rate, IDA_ONE_STEP);

@@ -24,8 +24,12 @@ struct DaeOptions {
   double relative_tolerance = 1e-4;
   Vector absolute_tolerance;  ///< one per unknown, in its unit
   Vector error_weight;        ///< factor on each unknown's weight in the error norm; empty: 1
-  double max_step = 0;        ///< ms; 0: none
-  double first_step = 0;      ///< ms; 0: chosen
+  /// 1, or 0 for an unknown that the error test leaves out; empty: 1. For the multipliers of constraints (of
+  /// index 2): their error is that of the others over the step, so that smaller steps do not lessen it
+  /// (Brenan, Campbell and Petzold 1996, §5.2).
+  Vector error_tested;
+  double max_step = 0;    ///< ms; 0: none
+  double first_step = 0;  ///< ms; 0: chosen
   int max_order = 5;
 };
 

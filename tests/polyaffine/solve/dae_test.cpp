@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <vector>
 
 namespace polyaffine {
 namespace {
@@ -94,6 +96,47 @@ TEST(Dae, InterpolatesInsideTheLastStepAndKeepsTheLargestStep) {
     before = integrator.time();
   }
   EXPECT_NEAR(integrator.rate()[0], std::cos(1), 1e-5);
+}
+
+// Whatever the error allows, or the largest step: else rounding would move every step.
+TEST(Dae, StepsChangeByFixedFactors) {
+  std::vector<double> factors = {2};  // at the start, while the order rises
+  for (double cut = 1; cut > 1e-3; cut /= 2) factors.insert(factors.end(), {cut, 1.5 * cut});
+  for (const double largest : {0.0, 0.01}) {
+    SmallSystem system = index_one();
+    DaeOptions o = options(1e-6, Vector::Constant(2, 1e-6));
+    o.max_step = largest;
+    DaeIntegrator integrator(system, o, 0, kStart, kStartRate);
+    double before = 0, last = 0;
+    int changes = 0;
+    while (integrator.time() < 1.5) {
+      ASSERT_EQ(integrator.step(3), DaeStatus::reached);
+      const double h = integrator.time() - before;
+      if (last > 0) {
+        const auto near = [&](double f) { return std::abs(h / last - f) < 1e-9; };
+        EXPECT_TRUE(std::ranges::any_of(factors, near)) << h / last;
+        if (!near(1)) ++changes;
+      }
+      before = integrator.time();
+      last = h;
+    }
+    EXPECT_GE(changes, 3);
+    EXPECT_GT(last, largest / 1.5 * (1 - 1e-9));
+  }
+}
+
+TEST(Dae, TheErrorTestLeavesOutWhatItIsTold) {
+  const auto steps = [](const Vector& tested) {
+    SmallSystem system = index_one();
+    DaeOptions o = options(0, Eigen::Vector2d(1e-4, 1e-6));
+    o.error_tested = tested;
+    DaeIntegrator integrator(system, o, 0, kStart, kStartRate);
+    run_to(integrator, 1.5);
+    EXPECT_NEAR(integrator.y()[0], std::sin(1.5), 300 * 1e-4);  // as in ErrorFollowsTheTolerance
+    EXPECT_NEAR(integrator.y()[1], std::pow(integrator.y()[0], 2), 1e-5);
+    return static_cast<double>(integrator.counters().steps);
+  };
+  EXPECT_LT(1.4 * steps(Eigen::Vector2d(1, 0)), steps(Vector()));
 }
 
 TEST(Dae, CountsItsWork) {
