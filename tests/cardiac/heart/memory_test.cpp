@@ -11,8 +11,9 @@ namespace {
 TEST(Memory, TwentyBeatsNeedNoMoreThanThree) {
   if (mallinfo2().uordblks == 0) GTEST_SKIP() << "this build's malloc keeps no count (sanitizers)";
   const Protocol protocol = testing::shipped_protocol(
-      "healthy_lv",
-      testing::on_land_ellipsoid({"time.max_beats=20", "time.limit_cycle_tolerance_percent=1e-12"}));
+      "healthy_lv", testing::on_land_ellipsoid(
+                        {"time.max_beats=20", "time.limit_cycle_tolerance_percent=1e-12",
+                         "circulation.compliance_mL_per_mmHg=5"}));  // beats that do not repeat before
   const Ventricle ventricle =
       build_ventricle(testing::read_anatomy(protocol), protocol, protocol.reduction.method);
   std::vector<double> in_use;  // before each beat, with the path of the one before
