@@ -14,7 +14,6 @@ namespace {
 
 constexpr double kChangeOfAlpha = 0.5;  // relative, that needs a new factorisation
 constexpr int kMaxIterations = 6;       // of Newton's method in a step
-constexpr double kNewton = 0.2;         // its error over the tolerance of a step
 
 // Steps change by these factors alone, not by what the error would just allow: rounding then moves neither a
 // step nor, with it, the number of iterations, and the result is the same on all machines. For this the step
@@ -204,7 +203,6 @@ DaeIntegrator::DaeIntegrator(DaeSystem& system, const DaeOptions& options, doubl
   check(IDASetLinearSolutionScaling(m.ida, SUNFALSE), "IDASetLinearSolutionScaling");
   check(IDASetDeltaCjLSetup(m.ida, kChangeOfAlpha), "IDASetDeltaCjLSetup");
   check(IDASetMaxNonlinIters(m.ida, kMaxIterations), "IDASetMaxNonlinIters");
-  check(IDASetNonlinConvCoef(m.ida, kNewton), "IDASetNonlinConvCoef");
   check(IDASetEtaMax(m.ida, kStepGrowth), "IDASetEtaMax");
   check(IDASetEtaMin(m.ida, kStepCut), "IDASetEtaMin");
   check(IDASetEtaLow(m.ida, kStepCut), "IDASetEtaLow");
