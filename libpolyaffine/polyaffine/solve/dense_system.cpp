@@ -9,7 +9,9 @@ namespace {
 
 class DenseSystem : public LinearSystem {
  public:
-  DenseSystem(int n, std::vector<char> fixed) : K_(Matrix::Zero(n, n)), fixed_(std::move(fixed)) { fixed_.resize(n, 0); }
+  DenseSystem(int n, std::vector<char> fixed) : K_(Matrix::Zero(n, n)), fixed_(std::move(fixed)) {
+    fixed_.resize(n, 0);
+  }
 
   // Only the lower triangle is kept.
   void set_zero() override { K_.triangularView<Eigen::Lower>().setZero(); }
