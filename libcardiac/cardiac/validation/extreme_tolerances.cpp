@@ -38,7 +38,7 @@ double difference(const HeartPath& path, const HeartPath& reference) {
 
 void extreme_tolerances(ExtremeChecks& checks) {
   const std::vector<double> tolerances = checks.quick()
-                                             ? std::vector<double>{1e-3, 1e-5}
+                                             ? std::vector<double>{1e-3, 1e-6}
                                              : std::vector<double>{1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
   const ExtremeOutcome reference = beat(checks, tolerances.back() / 10);
   double first = 0, last = 0;
