@@ -10,8 +10,7 @@ namespace cardiac::app {
 
 /// The heart on the mesh of a protocol, in mm: read from its file with its fibre fields, or the idealised
 /// shape meshed. What was repaired or recognised in the file is added to the warnings. Throws InputError,
-/// naming the mesh, and when this build lacks what it needs of VTK
-/// and CGAL.
+/// naming the mesh, and when this build lacks what it needs of VTK and CGAL.
 HeartMesh load_heart(const Protocol& protocol, std::vector<std::string>& warnings);
 
 /// The anatomy on a heart that was loaded for the protocol. Throws InputError as build_anatomy, naming the

@@ -153,15 +153,16 @@ std::array<int, 3> degrees(const polyaffine::FrameBasis& basis) {
   for (const auto& frame : basis.frames())
     if (frame.local_axes)
       for (const Monomial& m : frame.monomials)
-        for (int k = 0; k < 3; ++k) out[k] = std::max(out[k], static_cast<int>(m[k]));
+        for (int k = 0; k < 3; ++k) out[k] = std::max(out[k], m[k]);
   return out;
 }
 
 // Gauss points of cells: of the wall by what its functions can do, in its cells at the axis, where it bends
 // most, as many each way; of surfaces, whose error no other point makes up for, one more where the wall can
-// bend within a cell.
+// bend within a cell. And the polynomials kept exact in a cell that is no box.
 struct Counts {
   polyaffine::CellCounts wall, wall_at_apex, surface, surface_at_apex;
+  polyaffine::CellDegree exact;
 };
 Counts counts_for(const std::array<int, 3>& degree) {
   const int depth = std::max(3, degree[2] + 1);
@@ -170,7 +171,8 @@ Counts counts_for(const std::array<int, 3>& degree) {
   return {{degree[0] + 1, degree[1] + 1, depth},
           {depth, depth, depth},
           {surface, surface, 1},
-          {surface_at_apex, surface_at_apex, 1}};
+          {surface_at_apex, surface_at_apex, 1},
+          bent ? kBentCellDegree : kCellDegree};
 }
 
 }  // namespace
@@ -216,15 +218,13 @@ void add_reduced_points(const Anatomy& anatomy, const Protocol& protocol, Discre
   const VentricularCoordinates& heart = *anatomy.coordinates;
   const LagrangeBasis& geometry = heart.space();
   const bool all_points = protocol.reduction.integration == protocol::Integration::gauss;
-  const std::array<int, 3> degree = degrees(*out.frame_basis);
-  const Counts counts = counts_for(degree);
-  const polyaffine::CellDegree exact = degree[0] > 1 || degree[1] > 1 ? kBentCellDegree : kCellDegree;
+  const Counts counts = counts_for(degrees(*out.frame_basis));
   const auto surfaces = {&out.cavity_points, &out.right_cavity_points, &out.epicardium_points};
   if (!out.frames) {  // sigmoid weights: regions are no boxes
     const WallPoints candidates = geometry.wall_points(kCandidateDegree);
     const Cells cells = region_cells(anatomy, out, candidates);
     out.points = all_points ? polyaffine::group_cells(candidates, cells.cell)
-                            : polyaffine::compress_cells(candidates, cells.cell, cells.place, exact);
+                            : polyaffine::compress_cells(candidates, cells.cell, cells.place, counts.exact);
     add_surface_points(
         anatomy, protocol, geometry,
         [rule = polyaffine::triangle_rule(kCandidateDegree)](int, const LagrangeBasis::FaceCorners&) {
@@ -244,9 +244,9 @@ void add_reduced_points(const Anatomy& anatomy, const Protocol& protocol, Discre
   const CandidatePoints candidates = tent_candidates(heart, cells);
   const Cells wall = tent_cells(cells, candidates.wall);
   const auto wall_counts = [&](int cell) { return cells.at_apex(cell) ? counts.wall_at_apex : counts.wall; };
-  out.points =
-      all_points ? polyaffine::group_cells(candidates.wall, wall.cell)
-                 : polyaffine::gauss_cells(candidates.wall, wall.cell, wall.place, cells, wall_counts, exact);
+  out.points = all_points ? polyaffine::group_cells(candidates.wall, wall.cell)
+                          : polyaffine::gauss_cells(candidates.wall, wall.cell, wall.place, cells,
+                                                    wall_counts, counts.exact);
   add_surface_points(anatomy, protocol, geometry, candidates.face, out);
   const auto surface_counts = [&](int cell) {
     return cells.at_apex(cell) ? counts.surface_at_apex : counts.surface;

@@ -15,9 +15,9 @@ namespace {
 constexpr double kChangeOfAlpha = 0.5;  // relative, that needs a new factorisation
 constexpr int kMaxIterations = 6;       // of Newton's method in a step
 
-// Steps change by these factors alone, not by what the error would just allow: rounding then moves neither a
-// step nor, with it, the number of iterations, and the result is the same on all machines. For this the step
-// also stays where it would grow beyond the largest, instead of being cut to it.
+// Steps change by these factors alone, not by what the error would just allow: rounding then moves no step
+// and, with it, no number of iterations. For this the step also stays where it would grow beyond the largest,
+// instead of being cut to it.
 constexpr double kStepGrowth = 1.5, kStepCut = 0.5;
 constexpr double kNoGrowth = 1e10;
 
