@@ -10,6 +10,7 @@ namespace cardiac {
 
 inline constexpr int kAhaSegments = 17;        ///< of the left ventricle
 inline constexpr int kBothSegments = 17 + 12;  ///< with the right free wall
+inline constexpr int kAhaRings = 3;            ///< of segments, beside the cap
 
 /// Name of AHA segment 1–17 (Cerqueira et al. 2002), or of segment 18–29 of the right free wall: 18–21 basal,
 /// 22–25 mid, 26–28 apical, each from the anterior to the inferior insertion, 29 the apex. They mirror the

@@ -39,7 +39,7 @@ ModelChoice reduced(const std::string& preset, const std::string& ring_nodes, st
 }
 
 // The apex node and these: 5, 17 (one a segment), 29 and 61 control nodes.
-constexpr std::array kRingNodes{"[4]", "[4,6,6]", "[4,6,6,6,6]", "[12,12,12,12,12]"};
+constexpr std::array kRingNodes{"[4]", "[4,6,6]", "[4,6,6,6,6]", "[6,8,8,8,10,10,10]"};
 constexpr const char* kSegments = kRingNodes[1];
 
 // By edge length on Land's ellipsoid (as fine on another), or by the cells of a structured mesh.

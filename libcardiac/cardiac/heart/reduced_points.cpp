@@ -7,6 +7,7 @@
 
 #include <cardiac/anatomy/right_ventricle.hpp>
 #include <cardiac/anatomy/segment_cells.hpp>
+#include <cardiac/anatomy/segments.hpp>
 #include <polyaffine/quadrature/cell_gauss.hpp>
 #include <polyaffine/quadrature/split_rule.hpp>
 
@@ -159,15 +160,17 @@ std::array<int, 3> degrees(const polyaffine::FrameBasis& basis) {
 
 // Gauss points of cells: of the wall by what its functions can do, in its cells at the axis, where it bends
 // most, as many each way; of surfaces, whose error no other point makes up for, one more where the wall can
-// bend within a cell. And the polynomials kept exact in a cell that is no box.
+// bend within a cell. More rings than AHA's lessen the error along the wall and with it what the points may
+// add: one more through the depth, where cells stay as they are, and on surfaces. And the polynomials kept
+// exact in a cell that is no box.
 struct Counts {
   polyaffine::CellCounts wall, wall_at_apex, surface, surface_at_apex;
   polyaffine::CellDegree exact;
 };
-Counts counts_for(const std::array<int, 3>& degree) {
-  const int depth = std::max(3, degree[2] + 1);
+Counts counts_for(const std::array<int, 3>& degree, bool more_rings) {
+  const int depth = std::max(more_rings ? 4 : 3, degree[2] + 1);
   const bool bent = degree[0] > 1 || degree[1] > 1;
-  const int surface = bent ? 3 : 2, surface_at_apex = bent ? depth + 1 : depth;
+  const int surface = bent || more_rings ? 3 : 2, surface_at_apex = bent ? depth + 1 : depth;
   return {{degree[0] + 1, degree[1] + 1, depth},
           {depth, depth, depth},
           {surface, surface, 1},
@@ -218,7 +221,7 @@ void add_reduced_points(const Anatomy& anatomy, const Protocol& protocol, Discre
   const VentricularCoordinates& heart = *anatomy.coordinates;
   const LagrangeBasis& geometry = heart.space();
   const bool all_points = protocol.reduction.integration == protocol::Integration::gauss;
-  const Counts counts = counts_for(degrees(*out.frame_basis));
+  const Counts counts = counts_for(degrees(*out.frame_basis), std::ssize(out.layout.rings) > kAhaRings);
   const auto surfaces = {&out.cavity_points, &out.right_cavity_points, &out.epicardium_points};
   if (!out.frames) {  // sigmoid weights: regions are no boxes
     const WallPoints candidates = geometry.wall_points(kCandidateDegree);

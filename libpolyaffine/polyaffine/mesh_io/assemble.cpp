@@ -157,12 +157,13 @@ LabelledTriangles labelled(const SurfaceData& surface, const std::vector<TetFace
   LabelledTriangles out;
   for (int i = 0; i < static_cast<int>(triangles.cols()); ++i) {
     const FaceKey key = face_key(triangles(0, i), triangles(1, i), triangles(2, i));
-    const auto found = std::ranges::equal_range(faces, key, {}, &TetFace::key);
+    const auto first = std::ranges::lower_bound(faces, key, {}, &TetFace::key);
+    const auto shared_by = std::ranges::upper_bound(faces, key, {}, &TetFace::key) - first;
     const int label = surface.labels[chosen[i]];
-    if (found.empty())
+    if (shared_by == 0)
       fail(surface.data, "labelled triangle " + std::to_string(chosen[i]) + " (label " +
                              std::to_string(label) + ") is not a face of the boundary of the tetrahedra");
-    if (found.size() > 1) continue;
+    if (shared_by > 1) continue;
     outer.push_back(i);
     out.labels.push_back(label);
   }
