@@ -31,7 +31,7 @@ std::vector<int> next_and_next_but_one(const TetMesh& mesh, int tet) {
       if (m >= 0 && m != tet) out.push_back(m);
   }
   std::ranges::sort(out);
-  out.erase(std::ranges::unique(out).begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
 }
 

@@ -97,12 +97,6 @@ CellRule fill(const Filling& filling, const PlaceOf& place_of, const CellCounts&
   return out;
 }
 
-std::vector<std::vector<int>> members(const std::vector<int>& cell) {
-  std::vector<std::vector<int>> out(cell.empty() ? 0 : *std::max_element(cell.begin(), cell.end()) + 1);
-  for (std::size_t p = 0; p < cell.size(); ++p) out[cell[p]].push_back(static_cast<int>(p));
-  return out;
-}
-
 // Gauss points of all cells that are boxes, the amounts there, and the candidates of the other cells.
 struct BoxCells {
   std::vector<MeshPoint> points;
@@ -117,7 +111,7 @@ BoxCells box_cells(const Candidates& candidates, const Matrix& amounts, const st
                    const std::function<CellCounts(int cell)>& counts) {
   BoxCells out;
   std::vector<Matrix> found;
-  const auto all = members(cell);
+  const auto all = points_of_cells(cell);
   for (int c = 0; c < static_cast<int>(all.size()); ++c) {
     const auto& own = all[c];
     if (own.empty()) continue;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <polyaffine/core/types.hpp>
+#include <polyaffine/geometry/locate.hpp>
 
 namespace polyaffine {
 
@@ -16,11 +17,6 @@ struct CellPlace {
 
 /// Where a point of the mesh lies: smooth within a cell.
 using PlaceOf = std::function<CellPlace(int tet, const Vec4& barycentric)>;
-
-struct MeshPoint {
-  int tet = 0;
-  Vec4 barycentric = Vec4::Zero();
-};
 
 /// The point of the mesh at a place, to 1e-8 of the cell, found by Newton's method in the elements of `near`
 /// from their points, one after the other, until one holds it. Starts with a barycentric coordinate of zero

@@ -22,10 +22,9 @@ std::vector<std::array<int, 3>> exponents(const CellDegree& degree) {
   return out;
 }
 
-std::vector<std::vector<int>> members(const std::vector<int>& cell) {
-  std::vector<std::vector<int>> out(cell.empty() ? 0 : *std::max_element(cell.begin(), cell.end()) + 1);
-  for (std::size_t p = 0; p < cell.size(); ++p) out[cell[p]].push_back(static_cast<int>(p));
-  std::erase_if(out, [](const auto& m) { return m.empty(); });
+std::vector<std::vector<int>> filled_cells(const std::vector<int>& cell) {
+  auto out = points_of_cells(cell);
+  std::erase_if(out, [](const auto& points) { return points.empty(); });
   return out;
 }
 
@@ -89,7 +88,7 @@ WallPoints compress_cells(const WallPoints& candidates, const std::vector<int>& 
   const auto powers = exponents(degree);
   std::vector<std::vector<int>> chosen;
   std::vector<Vector> weights;
-  for (const auto& points : members(cell)) {
+  for (const auto& points : filled_cells(cell)) {
     Matrix features(static_cast<Eigen::Index>(powers.size()), static_cast<Eigen::Index>(points.size()));
     for (std::size_t p = 0; p < points.size(); ++p) {
       const Vec3 x = coordinates.col(points[p]);
@@ -114,7 +113,7 @@ SurfacePoints compress_surface_cells(const SurfacePoints& candidates, const std:
   std::vector<double> factors;  // on the weights of the candidates
   SurfacePoints out;
   out.starts.push_back(0);
-  for (const auto& points : members(cell)) {
+  for (const auto& points : filled_cells(cell)) {
     std::vector<Vector> columns;
     Vector area(static_cast<Eigen::Index>(points.size()));
     for (const int p : points) {
@@ -149,8 +148,14 @@ SurfacePoints compress_surface_cells(const SurfacePoints& candidates, const std:
   return out;
 }
 
+std::vector<std::vector<int>> points_of_cells(const std::vector<int>& cell) {
+  std::vector<std::vector<int>> out(cell.empty() ? 0 : *std::max_element(cell.begin(), cell.end()) + 1);
+  for (std::size_t p = 0; p < cell.size(); ++p) out[cell[p]].push_back(static_cast<int>(p));
+  return out;
+}
+
 WallPoints group_cells(const WallPoints& candidates, const std::vector<int>& cell) {
-  const auto chosen = members(cell);
+  const auto chosen = filled_cells(cell);
   std::vector<Vector> weights;
   for (const auto& points : chosen) weights.emplace_back(candidates.weights(points));
   return select(candidates, chosen, weights);

@@ -28,6 +28,9 @@ WallPoints compress_cells(const WallPoints& candidates, const std::vector<int>& 
 SurfacePoints compress_surface_cells(const SurfacePoints& candidates, const std::vector<int>& cell,
                                      const Matrix& coordinates, int degree);
 
+/// The points of every cell, from the cell of every point; none for a number that is not used.
+std::vector<std::vector<int>> points_of_cells(const std::vector<int>& cell);
+
 /// Puts the blocks of `more` after those of a rule.
 void append(const WallPoints& more, WallPoints& rule);
 void append(const SurfacePoints& more, SurfacePoints& rule);

@@ -216,7 +216,8 @@ Start start_at(const Equations& equations, const MixedState& state) {
 NewtonReport newton_from(const Equations& equations, Start start, LinearSystem& system, Vector& tangent,
                          MixedState& state, const NewtonOptions& options) {
   NewtonReport report;
-  auto& [x, now] = start;
+  MixedState& x = start.state;
+  Residual& now = start.residual;
   const auto stop = [&](StopReason reason) {
     report.reason = reason;
     if (reason == StopReason::converged) state = x;
