@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds everything in release mode, runs every test and checks the format.
 # Options for the long checks:
-#   --sanitize  also build and run the tests with address and undefined-behaviour sanitizers
+#   --sanitize  also build (with Clang) and run the tests with address and undefined-behaviour sanitizers
 #   --debug     also compare the tables of an unoptimised build with those of the release build (1e-8)
 #   --plain     also compare the tables of a build without VTK and CGAL with those of the release build (equal)
 #   --cost      also measure time, memory and libraries of some scenes and the start of the program
@@ -35,6 +35,7 @@ check() {
 
 purposes=(tests)
 [[ $tidy == yes ]] && purposes+=(tidy)
+[[ $sanitize == yes ]] && purposes+=(sanitize)
 install_packages "${purposes[@]}" || exit 1
 
 presets=(release)
