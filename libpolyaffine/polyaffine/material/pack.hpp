@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 namespace polyaffine {
 
@@ -24,12 +25,13 @@ struct Mat3Pack {
 };
 
 /// kLanes neighbouring numbers in memory, at any address.
-using LoosePack = double __attribute__((vector_size(8 * kLanes), aligned(8), may_alias));
 inline Pack load(const double* data) {
-  return *reinterpret_cast<const LoosePack*>(data);
+  Pack v;
+  std::memcpy(&v, data, sizeof v);
+  return v;
 }
 inline void store(double* data, const Pack& v) {
-  *reinterpret_cast<LoosePack*>(data) = v;
+  std::memcpy(data, &v, sizeof v);
 }
 
 /// Reads base[0], base[stride], … one per lane. Lanes from `lanes` on repeat the last valid one, so that the
@@ -59,8 +61,9 @@ template <std::ptrdiff_t size>
 void scatter_add_points(double* base, int lanes, const Pack* v) {
   std::ptrdiff_t i = 0;
 #ifdef __AVX__
-  const auto at = [base](std::ptrdiff_t lane, std::ptrdiff_t entry) {
-    return reinterpret_cast<LoosePack*>(base + size * lane + entry);
+  const auto add = [base](std::ptrdiff_t lane, std::ptrdiff_t entry, const Pack& more) {
+    double* at = base + size * lane + entry;
+    store(at, load(at) + more);
   };
   if (lanes == kLanes)
     for (; i + 4 <= size; i += 4) {
@@ -68,10 +71,10 @@ void scatter_add_points(double* base, int lanes, const Pack* v) {
       const Pack b = __builtin_shufflevector(v[i], v[i + 1], 1, 5, 3, 7);
       const Pack c = __builtin_shufflevector(v[i + 2], v[i + 3], 0, 4, 2, 6);
       const Pack d = __builtin_shufflevector(v[i + 2], v[i + 3], 1, 5, 3, 7);
-      *at(0, i) += __builtin_shufflevector(a, c, 0, 1, 4, 5);
-      *at(1, i) += __builtin_shufflevector(b, d, 0, 1, 4, 5);
-      *at(2, i) += __builtin_shufflevector(a, c, 2, 3, 6, 7);
-      *at(3, i) += __builtin_shufflevector(b, d, 2, 3, 6, 7);
+      add(0, i, __builtin_shufflevector(a, c, 0, 1, 4, 5));
+      add(1, i, __builtin_shufflevector(b, d, 0, 1, 4, 5));
+      add(2, i, __builtin_shufflevector(a, c, 2, 3, 6, 7));
+      add(3, i, __builtin_shufflevector(b, d, 2, 3, 6, 7));
     }
 #endif
   for (; i < size; ++i) scatter_add(base + i, size, lanes, v[i]);

@@ -29,6 +29,7 @@ MeshData surface() {
 
 std::string refusal(const std::function<void(MeshData&)>& damage) {
   MeshData data = surface();
+  data.triangle_fields.clear();  // of as many triangles as there were
   damage(data);
   try {
     make_closed_surface(data);
