@@ -71,7 +71,7 @@ CellNumbers read_cells(Document& document, std::size_t count, MeshData& data) {
   CellList tets{4}, triangles{3};
   std::size_t quadratic_tets = 0, from = 0;
   for (std::size_t c = 0; c < count; ++c) {
-    const auto type = static_cast<int>(types[c]);
+    const int type = types[c] >= 0 && types[c] < 256 ? static_cast<int>(types[c]) : -1;  // a byte in VTK
     const auto to = static_cast<std::size_t>(ends[c]);
     const std::span<const double> of(points.data() + from, to - from);
     from = to;
@@ -81,7 +81,8 @@ CellNumbers read_cells(Document& document, std::size_t count, MeshData& data) {
     const auto cell = "cell " + std::to_string(c) + " (counted from 0): ";
     const bool tet = type == kTet || type == kQuadraticTet;
     if (!tet && type != kTriangle && type != kQuadraticTriangle)
-      document.fail(0, cell + "found VTK's cell type " + std::to_string(type) +
+      document.fail(0, cell + "found VTK's cell type " +
+                           (type < 0 ? "outside 0 to 255" : std::to_string(type)) +
                            ", expected 10 (tetrahedron) or 5 (triangle), or 24 or 22 (quadratic)");
     (tet ? tets : triangles).add(corners(document, of, cell, tet ? 4 : 3, data.points.cols()));
     (tet ? numbers.tets : numbers.triangles).push_back(c);
