@@ -184,6 +184,7 @@ TEST(PlainVtuFile, WhatItDoesNotReadIsNamed) {
   EXPECT_THAT(error_with("Name=\"types\"", "Name=\"kinds\""), HasSubstr("no array types"));
   EXPECT_THAT(error_with("10 10", "10 12"),
               AllOf(HasSubstr("cell type 12"), HasSubstr("counted from 0"), HasSubstr("10 (tetrahedron)")));
+  EXPECT_THAT(error_with("10 10", "10 1e308"), HasSubstr("cell type outside 0 to 255"));
 }
 
 }  // namespace
