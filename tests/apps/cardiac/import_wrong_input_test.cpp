@@ -118,7 +118,7 @@ std::vector<WrongFile> files() {
        "heart.vtk",
        text(std::string("\x7f"
                         "ELF\x02\x01\x00\x00\xff\xfe garbage",
-                        20)),
+                        18)),
        {"heart.vtk", "damaged", "legacy VTK"}},
       {"legacy_vtk_cut_off",
        "heart.vtk",
