@@ -158,7 +158,7 @@ LabelledTriangles labelled(const SurfaceData& surface, const std::vector<TetFace
   for (int i = 0; i < static_cast<int>(triangles.cols()); ++i) {
     const FaceKey key = face_key(triangles(0, i), triangles(1, i), triangles(2, i));
     const auto first = std::ranges::lower_bound(faces, key, {}, &TetFace::key);
-    const auto shared_by = std::ranges::upper_bound(faces, key, {}, &TetFace::key) - first;
+    const auto shared_by = std::ranges::upper_bound(first, faces.end(), key, {}, &TetFace::key) - first;
     const int label = surface.labels[chosen[i]];
     if (shared_by == 0)
       fail(surface.data, "labelled triangle " + std::to_string(chosen[i]) + " (label " +
