@@ -20,7 +20,7 @@ namespace cardiac {
 struct LeftHeartLoop {
   double filling_pressure_kPa = 0;
   Valve mitral;
-  Valve aortic;
+  Valve aortic;  ///< the valve alone, without the proximal resistance of the arteries
   Windkessel arteries;
 };
 

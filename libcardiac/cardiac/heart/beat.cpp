@@ -20,8 +20,7 @@ LeftHeartLoop left_heart_loop(const protocol::Circulation& c) {
   loop.filling_pressure_kPa = c.filling_pressure_mmHg * kPa_per_mmHg;
   loop.mitral.resistance_kPa_ms_per_mm3 = c.mitral_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL;
   loop.aortic.resistance_kPa_ms_per_mm3 =
-      (c.aortic_valve_resistance_mmHg_s_per_mL + c.characteristic_resistance_mmHg_s_per_mL) *
-      resistance_per_mmHg_s_per_mL;
+      c.aortic_valve_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL;
   if (c.aortic_leak_resistance_mmHg_s_per_mL)
     loop.aortic.leak_kPa_ms_per_mm3 = *c.aortic_leak_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL;
   loop.arteries = {c.characteristic_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL,
@@ -35,8 +34,7 @@ TwoSidedLoop two_sided_loop(const protocol::Circulation& c) {
   const LeftHeartLoop left = left_heart_loop(c);
   TwoSidedLoop loop;
   loop.left.inlet = left.mitral;
-  loop.left.outlet.resistance_kPa_ms_per_mm3 =
-      c.aortic_valve_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL;
+  loop.left.outlet = left.aortic;
   loop.left.arteries = left.arteries;
   loop.left.venous_compliance_mm3_per_kPa =
       c.pulmonary_venous_compliance_mL_per_mmHg * compliance_per_mL_per_mmHg;
@@ -60,8 +58,18 @@ bool stop_wanted(const RunControl& control) {
 
 std::string why(const polyaffine::LoadReport& report, const RunControl& control) {
   if (report.reason == polyaffine::StopReason::interrupted) return control.stop_reason();
+  if (report.reached == 0 && report.last.reason == polyaffine::StopReason::singular_tangent)
+    return "the functions of the model are not independent (two control nodes in one place?), or a part of "
+           "the wall is held by nothing";
   return "no equilibrium was found beyond it (" + polyaffine::to_string(report.last.reason) +
          "): a limit load, buckling, or a load too large for the tissue";
+}
+
+void warn_of_instability(const polyaffine::LoadReport& report, const std::string& load, HeartPath& path) {
+  if (!report.unstable_from) return;
+  path.warnings.push_back("from " + std::to_string(100 * *report.unstable_from) + " % of the " + load +
+                          " on the equilibrium is no minimum of the energy: the wall may buckle, and there "
+                          "may be other solutions");
 }
 
 std::shared_ptr<const CirculationModel> circulation_model(const Ventricle& ventricle,
@@ -93,6 +101,8 @@ bool fill(const Ventricle& ventricle, const protocol::Circulation& circulation, 
   options.interrupted = [&] { return stop_wanted(control); };
   const auto report = polyaffine::load_stepping(problem, *system, c, options);
   path.newton_iterations += report.iterations;
+  path.cuts += report.cuts;
+  warn_of_instability(report, "filling pressure", path);
   if (report.converged()) return true;
   path.stop_reason = "filling stopped at " +
                      std::to_string(report.reached * circulation.filling_pressure_mmHg) + " of " +
@@ -101,7 +111,9 @@ bool fill(const Ventricle& ventricle, const protocol::Circulation& circulation, 
 }
 
 // Time steps of one beat, some ten times as many as one needs.
-constexpr int kMaxSteps = 2000;
+int most_steps(const protocol::Time& time, double period_ms) {
+  return std::max(2000, static_cast<int>(10 * std::ceil(period_ms / time.max_step_ms)));
+}
 
 double stroke_volume(const std::vector<HeartState>& steps) {
   const auto by_volume = [](const HeartState& a, const HeartState& b) { return a.volume_mm3 < b.volume_mm3; };
@@ -129,6 +141,7 @@ bool run_beat(BeatSystem& system, const Protocol& protocol, double period, const
   const int beat = path.beats;
   const double begin = beat * period, end = (beat + 1) * period;
   const double interval = protocol.output.interval_ms;
+  const int most = most_steps(protocol.time, period);
   path.beat_start_ms = begin;
   path.steps = {system.unpack(begin, begin, y)};
   path.outputs = path.steps;
@@ -151,8 +164,8 @@ bool run_beat(BeatSystem& system, const Protocol& protocol, double period, const
     path.max_det_F = std::max(path.max_det_F, system.max_det());
     if (control.progress)
       control.progress("beat " + std::to_string(beat + 1), ida.time() / (period * protocol.time.max_beats));
-    if (std::ssize(path.steps) > kMaxSteps)
-      stop = std::to_string(kMaxSteps) + " time steps in one beat; the last was " +
+    if (std::ssize(path.steps) > most)
+      stop = std::to_string(most) + " time steps in one beat; the last was " +
              std::to_string(path.steps.back().time_ms - path.steps.end()[-2].time_ms) +
              " ms; a softer tissue, more viscosity or larger tolerances (time.*) let it go on";
     else if (stop_wanted(control))
@@ -277,11 +290,7 @@ HeartPath run_prescribed(const Ventricle& ventricle, const Protocol& protocol, c
     path.time_steps += report.steps;
     path.newton_iterations += report.iterations;
     path.cuts += report.cuts;
-    if (report.unstable_from)
-      path.warnings.push_back(
-          "from " + std::to_string(100 * *report.unstable_from) +
-          " % of the load on the equilibrium is no minimum of the energy: the wall may buckle, "
-          "and there may be other solutions");
+    warn_of_instability(report, "load", path);
     if (!report.converged())
       path.stop_reason =
           "stopped at " + std::to_string(100 * report.reached) + " % of the load: " + why(report, control);

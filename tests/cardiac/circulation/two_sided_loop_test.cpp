@@ -64,6 +64,14 @@ TEST(TwoSidedLoop, FlowsAreThoseOfTheOpenValves) {
   EXPECT_NEAR(closed[systemic_venous_pressure] / kPa_per_mmHg * 1000, 75 / 12.0, 0.1);
 }
 
+TEST(TwoSidedLoop, ALeakLetsBloodBackThroughTheProximalResistanceToo) {
+  TwoSidedLoop leaking = loop();
+  leaking.left.outlet.leak_kPa_ms_per_mm3 = 0.36 * resistance_per_mmHg_s_per_mL;
+  // 60 mmHg in the cavity, 80 behind the valve: 20 over 0.36 + 0.04 mmHg·s/mL flow back.
+  const auto rates = TwoSidedCirculation(leaking).rates(states(), pressures(kPressures[2])).values;
+  EXPECT_NEAR(rates[left_volume] / flow_per_mL_per_s, 20 / 0.4, 0.1);
+}
+
 TEST(TwoSidedLoop, DerivativesAreThoseOfTheRates) {
   const TwoSidedCirculation circulation(loop());
   for (const auto& mmHg : kPressures) {
