@@ -139,7 +139,7 @@ StoredResult parse_summary(const std::string& text, const std::filesystem::path&
   Json json;
   try {
     json = Json::parse(text);
-  } catch (const Json::parse_error& error) {
+  } catch (const Json::exception& error) {
     throw InputError(file.string() + ": not valid JSON, " + error.what());
   }
   const Reader reader(json, "", file.string());

@@ -124,8 +124,10 @@ std::string inflated(ByteStream& stream, std::size_t width, std::size_t size) {
   const std::size_t whole = header_word(header, 1, width), last = header_word(header, 2, width);
   std::size_t packed = 0;
   for (std::size_t b = 0; b < blocks; ++b) {
-    packed += header_word(header, 3 + b, width);
-    if (packed > stream.left()) stream.fail("found damaged data, expected blocks that fit the file");
+    const std::size_t block = header_word(header, 3 + b, width);
+    if (block > stream.left() - packed)
+      stream.fail("found damaged data, expected blocks that fit the file");
+    packed += block;
   }
   const std::string in = stream.take(packed);
   std::string out(size, '\0');

@@ -12,6 +12,9 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
+#include <array>
+#include <cstdint>
+#include <cstring>
 #include <fstream>
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/mesh_io/vtu.hpp>
@@ -156,6 +159,19 @@ TEST(PlainVtuFile, MeshesOfTheProjectAreReadAsVtkReadsThem) {
     ++files;
   }
   EXPECT_GE(files, 5);
+}
+
+// Sizes of two blocks whose sum is small only because it exceeds 64 bits.
+TEST(PlainVtuFile, BlocksOfAnyAnnouncedSizeAreRefused) {
+  const TemporaryFolder folder;
+  const path file = folder.path / "box.vtu";
+  write(file, {"raw_zlib_wide", vtkXMLWriter::Appended, false, true, true});
+  std::string bytes = whole_file(file);
+  const std::size_t header = bytes.find('_', bytes.find("<AppendedData")) + 1;
+  const std::array<std::uint64_t, 2> sizes{100, static_cast<std::uint64_t>(-50)};
+  std::memcpy(bytes.data() + header + 3 * sizeof sizes[0], sizes.data(), sizeof sizes);
+  std::ofstream(file, std::ios::binary) << bytes;
+  EXPECT_THAT(error_of(file), HasSubstr("expected blocks that fit the file"));
 }
 
 // A text file with one thing changed.
