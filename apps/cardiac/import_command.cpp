@@ -78,7 +78,7 @@ void write(const ImportOptions& o, [[maybe_unused]] const HeartMesh& heart) {
 }
 
 void import(const ImportOptions& o) {
-  check_output_file(o.out, ".vtu");
+  check_output_file(o.out, ".vtu", "--out", o.file);
   const HeartMesh heart = read(o);
   write(o, heart);
   std::vector<std::string> warnings;

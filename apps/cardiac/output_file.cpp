@@ -7,7 +7,7 @@ namespace cardiac::app {
 using polyaffine::InputError;
 
 void check_output_file(const std::filesystem::path& file, const std::string& extension,
-                       const std::string& option) {
+                       const std::string& option, const std::filesystem::path& read) {
   if (file.extension() != extension)
     throw InputError(option + ": found \"" + file.string() + "\", expected a file name that ends in " +
                      extension);
@@ -16,6 +16,9 @@ void check_output_file(const std::filesystem::path& file, const std::string& ext
     throw InputError(option + ": found no folder " + folder.string() + " to write into");
   if (std::filesystem::is_directory(file))
     throw InputError(option + ": found the folder " + file.string() + ", expected a file name");
+  std::error_code none;
+  if (!read.empty() && std::filesystem::equivalent(file, read, none))
+    throw InputError(option + ": found \"" + file.string() + "\", the file that is read, expected another");
 }
 
 }  // namespace cardiac::app

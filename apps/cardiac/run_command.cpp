@@ -25,6 +25,7 @@
 #include "interrupt.hpp"
 #include "load_mesh.hpp"
 #include "progress.hpp"
+#include "result_folder.hpp"
 #include "run_files.hpp"
 #include "wall_figure.hpp"
 #include "warnings.hpp"
@@ -53,26 +54,10 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Frames and figures of an earlier, longer run would be mistaken for this one's; a folder without a summary
-// is not whole.
-void remove_old_results(const std::filesystem::path& out) {
-  polyaffine::remove_abandoned(out);
-  std::filesystem::remove(out / "summary.json");
-  std::filesystem::remove(out / "report.html");
-  for (const auto& entry : std::filesystem::directory_iterator(out)) {
-    const std::string name = entry.path().filename().string();
-    if (name.starts_with("heart_") && name.ends_with(".vtu")) std::filesystem::remove(entry.path());
-  }
-  std::filesystem::remove(out / "heart.pvd");
-}
-
-// The drawing; none, and none left from an earlier run, where nothing was computed.
+// The drawing; none where nothing was computed.
 std::string write_wall_figure(const Ventricle& ventricle, const Protocol& protocol, const HeartPath& path,
                               const BeatResult& result, const std::filesystem::path& out) {
-  if (path.steps.empty()) {
-    std::filesystem::remove(out / "wall.svg");
-    return "";
-  }
+  if (path.steps.empty()) return "";
   const Figure wall = wall_figure(ventricle, protocol, path, result);
   polyaffine::write_atomically(out / wall.file, wall.svg);
   return wall.svg;
@@ -83,7 +68,6 @@ void write_results(const Ventricle& ventricle, const Protocol& protocol, const H
                    std::chrono::steady_clock::time_point start) {
   const auto output_start = std::chrono::steady_clock::now();
   const RunInfo info{CARDIAC_VERSION, resolved_json(protocol).dump(), 0};
-  remove_old_results(out);
   if (protocol.output.mesh_series && !path.outputs.empty())
     write_mesh_series(ventricle, protocol, path, result, out);
   std::string wall;
@@ -147,19 +131,28 @@ std::shared_ptr<const Checkpoint> last_checkpoint(const std::filesystem::path& f
   return nullptr;
 }
 
+CheckpointOrigin origin_of(const Anatomy& anatomy, const Protocol& protocol) {
+  std::string mesh = polyaffine::digest(anatomy.mesh);
+  if (protocol.fibres && protocol.fibres->source == protocol::FibreSource::file)
+    mesh += ", fibres " + polyaffine::digest(polyaffine::Matrix(tet_fibres(anatomy, *protocol.fibres)));
+  return {CARDIAC_VERSION, resolved_json(protocol).dump(), std::move(mesh)};
+}
+
+// The run, with checkpoints or without.
 HeartPath solve(const Ventricle& ventricle, const Protocol& protocol, const RunOptions& options,
-                const std::filesystem::path& out, const InterruptGuard& interrupt) {
+                const std::filesystem::path& out, const InterruptGuard& interrupt, bool checkpoints = true) {
   const std::filesystem::path file = out / "checkpoint.json";
-  const CheckpointOrigin origin{CARDIAC_VERSION, resolved_json(protocol).dump(),
-                                polyaffine::digest(ventricle.anatomy->mesh)};
+  const CheckpointOrigin origin = origin_of(*ventricle.anatomy, protocol);
   ProgressLine line(options.quiet);
   RunControl control;
   control.progress = [&line](const std::string& what, double fraction) { line(what, fraction); };
   control.stop_reason = [&interrupt] { return interrupt.reason(); };
-  control.on_checkpoint = [&](const Checkpoint& at) {
-    polyaffine::write_atomically(file, checkpoint_text(at, origin));
-  };
+  if (checkpoints)
+    control.on_checkpoint = [&](const Checkpoint& at) {
+      polyaffine::write_atomically(file, checkpoint_text(at, origin));
+    };
   if (options.resume) control.resume = last_checkpoint(file, origin, options.quiet);
+  remove_old_results(out);
   return protocol.circulation ? run_beats(ventricle, protocol, control)
                               : run_prescribed(ventricle, protocol, control);
 }
@@ -194,6 +187,7 @@ void run(RunOptions options) {
       options.out.empty() ? std::filesystem::path("results") / std::filesystem::path(options.protocol).stem()
                           : std::filesystem::path(options.out);
   polyaffine::make_folder(out);
+  if (protocol.mesh.file) check_not_a_result(mesh_path(protocol), out);
 
   Ventricle ventricle = build_ventricle(anatomy, protocol, protocol.reduction.method);
   const auto nodes = segment_nodes(*anatomy, protocol);
@@ -203,9 +197,11 @@ void run(RunOptions options) {
   HeartPath path = solve(ventricle, protocol, options, out, interrupt);
   const std::string reason = interrupt.reason().empty() ? distrust(ventricle, protocol, path) : "";
   if (!reason.empty()) {
+    // Without a checkpoint: --resume would go on from it with the trained points.
     options.resume = false;
+    std::filesystem::remove(out / "checkpoint.json");
     ventricle = Ventricle(*ventricle.all_points);
-    path = solve(ventricle, protocol, options, out, interrupt);
+    path = solve(ventricle, protocol, options, out, interrupt, false);
     path.warnings.push_back(reason + ": computed with all points");
   }
   const double solve_s = seconds_since(solve_start);
@@ -215,14 +211,17 @@ void run(RunOptions options) {
   result.plan = items;
   if (!options.quiet) print_warnings(result.warnings);
   result.warnings.insert(result.warnings.begin(), protocol.warnings.begin(), protocol.warnings.end());
-  if (options.verify && path.completed && protocol.reduction.method == protocol::Method::polyaffine)
-    result.verification = verify_path(ventricle, protocol, path);
   write_results(ventricle, protocol, path, result, out, start);
+  if (options.verify && path.completed && protocol.reduction.method == protocol::Method::polyaffine) {
+    result.verification = verify_path(ventricle, protocol, path);
+    write_results(ventricle, protocol, path, result, out, start);
+  }
   if (!options.quiet) print_result(result, out);
   if (options.verbose && result.has_beat) print_timing(result);
   if (!path.completed)
-    throw polyaffine::ComputationError(path.stop_reason + "; what was computed is in " + out.string() +
-                                       (interrupt.reason().empty() ? "" : ", --resume goes on"));
+    throw polyaffine::ComputationError(
+        path.stop_reason + "; what was computed is in " + out.string() +
+        (interrupt.reason().empty() || !protocol.circulation ? "" : ", --resume goes on"));
 }
 
 }  // namespace

@@ -193,8 +193,13 @@ void print_comparison(const Anatomy& anatomy, const FibreComparison& given) {
 
 void segment(const SegmentOptions& o) {
   const Protocol protocol = as_protocol(o);
-  check_output_file(o.out, ".vtu");
+  check_output_file(o.out, ".vtu", "--out", o.mesh);
   if (!o.picture.empty()) check_output_file(o.picture, ".svg", "--picture");
+  const HelixAngles& a = o.angles;
+  if (!Eigen::Vector4d(a.endo_deg, a.epi_deg, a.rv_endo_deg, a.rv_epi_deg).allFinite())
+    throw InputError(
+        "--endo-angle, --epi-angle, --rv-endo-angle, --rv-epi-angle: found a number that is none, "
+        "expected degrees");
   std::vector<std::string> warnings;
   const HeartMesh heart = load_heart(protocol, warnings);
   const Anatomy anatomy = anatomy_of(heart, protocol);

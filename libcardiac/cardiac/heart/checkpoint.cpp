@@ -1,6 +1,8 @@
 #include "cardiac/heart/checkpoint.hpp"
 
+#include <cstdint>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -46,19 +48,30 @@ void check_protocol(const Json& found, const Json& expected, const std::filesyst
   check_same("protocol" + key.to_string(), value(found), value(expected), file);
 }
 
-Checkpoint checkpoint_of(const Json& json) {
+int count_of(const Json& json, const char* key, const std::filesystem::path& file) {
+  const Json& value = json.at(key);
+  const bool whole = value.is_number_integer();
+  const auto number = whole ? value.get<std::int64_t>() : 0;
+  if (!whole || number < 0 || number > std::numeric_limits<int>::max())
+    throw InputError(file.string() + ": found a damaged checkpoint (" + key + ": " + value.dump() +
+                     ", expected a whole number, at least 0)");
+  return static_cast<int>(number);
+}
+
+Checkpoint checkpoint_of(const Json& json, const std::filesystem::path& file) {
+  const auto count = [&](const char* key) { return count_of(json, key, file); };
   Checkpoint out;
-  out.beats = json.at("beats");
-  out.time_steps = json.at("time_steps");
-  out.newton_iterations = json.at("newton_iterations");
+  out.beats = count("beats");
+  out.time_steps = count("time_steps");
+  out.newton_iterations = count("newton_iterations");
   out.stroke_volumes_mm3 = json.at("stroke_volumes_mm3").get<std::vector<double>>();
   out.min_det_F = json.at("min_det_F");
   out.max_det_F = json.at("max_det_F");
-  out.cost.residuals = json.at("residuals");
-  out.cost.factorisations = json.at("factorisations");
-  out.cost.linear_solves = json.at("linear_solves");
-  out.cost.error_test_failures = json.at("error_test_failures");
-  out.cost.convergence_failures = json.at("convergence_failures");
+  out.cost.residuals = count("residuals");
+  out.cost.factorisations = count("factorisations");
+  out.cost.linear_solves = count("linear_solves");
+  out.cost.error_test_failures = count("error_test_failures");
+  out.cost.convergence_failures = count("convergence_failures");
   out.y = vector_of(json.at("y"));
   out.rate = vector_of(json.at("rate"));
   return out;
@@ -94,11 +107,13 @@ Checkpoint read_checkpoint(const std::filesystem::path& file, const CheckpointOr
     check_same("mesh", json.at("mesh"), origin.mesh, file);
     const Json protocol = Json::parse(origin.protocol_json);
     check_protocol(json.at("protocol"), protocol, file);
-    Checkpoint out = checkpoint_of(json);
+    Checkpoint out = checkpoint_of(json, file);
     if (out.beats >= protocol.at("time").at("max_beats").get<int>())
       throw InputError(file.string() + ": holds " + std::to_string(out.beats) +
                        " beats, expected fewer than time.max_beats");
     if (out.y.size() != out.rate.size()) throw InputError(file.string() + ": y and rate differ in length");
+    if (std::ssize(out.stroke_volumes_mm3) != out.beats)
+      throw InputError(file.string() + ": beats and stroke_volumes_mm3 differ in number");
     return out;
   } catch (const Json::exception& error) {
     throw InputError(file.string() + ": found a damaged checkpoint (" + error.what() + ")");

@@ -22,7 +22,7 @@ struct Checkpoint {
 struct CheckpointOrigin {
   std::string version;        ///< of the program
   std::string protocol_json;  ///< as resolved
-  std::string mesh;           ///< polyaffine::digest of the mesh
+  std::string mesh;           ///< polyaffine::digest of the mesh, and of the fibres that come with it
 };
 
 /// The text of checkpoint.json; numbers with all their digits. Of the cost only the calls are kept, no

@@ -36,4 +36,12 @@ std::string digest(const TetMesh& mesh) {
   return text.str();
 }
 
+std::string digest(const Matrix& values) {
+  Fnv1a hash;
+  hash.add(std::span(values.data(), static_cast<std::size_t>(values.size())));
+  std::ostringstream text;
+  text << std::hex << hash.value();
+  return text.str();
+}
+
 }  // namespace polyaffine

@@ -10,4 +10,7 @@ namespace polyaffine {
 /// meshes with the same text are the same but for a chance of 10⁻¹⁹.
 std::string digest(const TetMesh& mesh);
 
+/// The checksum of values by themselves, hexadecimal.
+std::string digest(const Matrix& values);
+
 }  // namespace polyaffine

@@ -95,7 +95,7 @@ TEST(FailedRun, FillingThatDoesNotSucceed) {
   const fs::path out = folder.path / "out";
   const auto run = run_program("run " + land(folder, kBeat) +
                                " --set circulation.filling_pressure_mmHg=100 --set tissue.C_kPa=0.001 --set "
-                               "tissue.bulk_modulus_kPa=1 --out " +
+                               "tissue.bulk_modulus_kPa=1 --set reduction.local_bulk_modulus_kPa=0.5 --out " +
                                out.string());
   const auto summary = check_failed(run, out);
   EXPECT_THAT(std::string(summary.at("stop_reason")), HasSubstr("of 100"));

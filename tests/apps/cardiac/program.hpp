@@ -14,12 +14,12 @@ struct ProgramRun {
   std::string out, err;
 };
 
-/// Runs the program as a child; the arguments as a shell reads them.
-inline ProgramRun run_program(const std::string& arguments) {
+/// Runs the program as a child; the arguments, and the commands before it, as a shell reads them.
+inline ProgramRun run_program(const std::string& arguments, const std::string& before = "") {
   const TemporaryFolder folder;
   const auto out = folder.path / "out", err = folder.path / "err";
-  const int code = std::system(
-      ("\"" CARDIAC_PROGRAM "\" " + arguments + " >" + out.string() + " 2>" + err.string() + " </dev/null")
-          .c_str());
+  const int code = std::system((before + "\"" CARDIAC_PROGRAM "\" " + arguments + " >" + out.string() +
+                                " 2>" + err.string() + " </dev/null")
+                                   .c_str());
   return {WIFEXITED(code) ? WEXITSTATUS(code) : -1, whole_file(out), whole_file(err)};
 }

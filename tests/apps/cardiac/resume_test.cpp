@@ -128,12 +128,38 @@ TEST_F(Resume, FullOrder) {
   const auto second_beat = [&] {
     while (beats_in(out / "checkpoint.json") == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
   };
-  for (const auto& [signal, status] : {std::pair{SIGKILL, -1}, std::pair{SIGINT, 1}}) {
+  for (const auto& [signal, status] : {std::pair{SIGKILL, -1}, std::pair{SIGINT, 1}, std::pair{SIGTERM, 1}}) {
     fs::remove_all(out);
     EXPECT_EQ(interrupted(arguments(out, fem), second_beat, signal), status);
     EXPECT_EQ(run_program(arguments(out, fem + " --resume")).status, 0);
     expect_same_results(out, whole);
   }
+}
+
+// A run killed in a folder with results leaves neither them nor half of its own.
+TEST_F(Resume, KilledOverEarlierResults) {
+  const std::string fem = "--method fem --set reduction.element_order=1 --set time.max_beats=2";
+  const fs::path whole = folder.path / "whole", out = folder.path / "out";
+  ASSERT_EQ(run_program(arguments(whole, fem)).status, 0);
+  ASSERT_EQ(run_program(arguments(out, "--set output.figures=true")).status, 0);
+  std::ofstream(out / "heart_0000.vtu") << "earlier";
+  for (const char* name : {"of_the_user.csv", "heart_lv.vtu"}) std::ofstream(out / name) << "kept";
+  fs::remove(out / "checkpoint.json");
+  EXPECT_EQ(interrupted(
+                arguments(out, fem),
+                [&] {
+                  while (!fs::exists(out / "checkpoint.json"))
+                    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+                },
+                SIGKILL),
+            -1);
+  for (const char* name : {"of_the_user.csv", "heart_lv.vtu"}) EXPECT_TRUE(fs::remove(out / name)) << name;
+  for (const auto& entry : fs::directory_iterator(out))
+    EXPECT_TRUE(entry.path().filename().string().starts_with('.') ||
+                entry.path().filename() == "checkpoint.json")
+        << entry.path();
+  EXPECT_EQ(run_program(arguments(out, fem + " --resume")).status, 0);
+  expect_same_results(out, whole);
 }
 
 TEST_F(Resume, OnlyTheSameModel) {

@@ -156,7 +156,8 @@ TEST_F(SegmentCommand, WrongInputIsStatusTwoAndTouchesNothing) {
       {sound + " --anterior 0 0 0", "--anterior: found"},
       {sound + " --anterior 1 0", "--anterior"},
       {sound + " --long-axis nan 0 1", "--long-axis: found"},
-      {sound + " --endo-angle 120", "--endo-angle"}};
+      {sound + " --endo-angle 120", "--endo-angle"},
+      {sound + " --epi-angle nan", "--epi-angle"}};
   for (const auto& [options, message] : cases) {
     const auto run = segment(options);
     EXPECT_EQ(run.status, 2) << options;
@@ -170,6 +171,12 @@ TEST_F(SegmentCommand, WrongInputIsStatusTwoAndTouchesNothing) {
     EXPECT_EQ(run.status, 2) << out;
     EXPECT_THAT(run.err, HasSubstr("--out"));
   }
+  const auto copy = folder_.path / "copy.vtu";
+  std::filesystem::copy_file(kLand, copy);
+  EXPECT_THAT(run_program("segment " + copy.string() + ' ' + sound + " --out " + copy.string()).err,
+              HasSubstr("--out: found \"" + copy.string() + "\", the file that is read"));
+  EXPECT_EQ(whole_file(copy), whole_file(kLand));
+  std::filesystem::remove(copy);
   EXPECT_EQ(whole_file(file()), "earlier");
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path), {}), 1);
 }

@@ -51,8 +51,10 @@ TEST_P(Threads, OneOrTwoGiveTheSameBits) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Protocols, Threads,
-                         testing::Values("healthy_lv.toml --set time.max_beats=1",
-                                         "passive_inflation.toml --method fem"));
+INSTANTIATE_TEST_SUITE_P(
+    Protocols, Threads,
+    testing::Values("healthy_lv.toml --set time.max_beats=1",
+                    "healthy_lv.toml --set time.max_beats=1 --set reduction.preset=accurate",
+                    "passive_inflation.toml --method fem"));
 
 }  // namespace

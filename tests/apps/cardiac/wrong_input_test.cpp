@@ -269,9 +269,10 @@ INSTANTIATE_TEST_SUITE_P(Mesh, WrongInputTest, testing::ValuesIn(mesh_cases()), 
 
 class WrongOutTest : public testing::Test {
  protected:
-  void expect_refusal(const std::string& out, const std::string& reason) const {
+  void expect_refusal(const std::string& out, const std::string& reason,
+                      const std::string& before = "") const {
     const std::string sound = with_options("", "", {}).arguments(folder_.path);
-    const auto run = run_program("run " + sound + " --out " + out);
+    const auto run = run_program("run " + sound + " --out " + out, before);
     EXPECT_EQ(run.status, 2);
     EXPECT_THAT(run.out, IsEmpty());
     EXPECT_THAT(run.err, testing::AllOf(HasSubstr(out), HasSubstr(reason)));
@@ -290,12 +291,29 @@ TEST_F(WrongOutTest, FolderThatCannotBeMade) {
 }
 
 TEST_F(WrongOutTest, FolderThatCannotBeWrittenInto) {
-  if (::geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
   const fs::path locked = folder_.path / "locked";
   fs::create_directory(locked);
   fs::permissions(locked, fs::perms::owner_read | fs::perms::owner_exec);
-  expect_refusal(locked.string(), "cannot write into the folder");
+  // Root may write anywhere; without its capabilities it is as any other user.
+  std::string as_a_user;
+  if (::geteuid() == 0) {
+    as_a_user = "setpriv --bounding-set=-all --inh-caps=-all ";
+    if (std::system((as_a_user + "true").c_str()) != 0) GTEST_SKIP() << "root keeps its capabilities here";
+  }
+  expect_refusal(locked.string(), "cannot write into the folder", as_a_user);
   fs::permissions(locked, fs::perms::owner_all);
+}
+
+// A result of an earlier run as the mesh of the next one, in the same folder.
+TEST_F(WrongOutTest, FolderOfTheMeshThatWouldBeRemoved) {
+  const fs::path mesh = folder_.path / "heart_0000.vtu";
+  fs::copy_file(PROJECT_DIR "/meshes/land_ellipsoid_coarse.vtu", mesh);
+  const std::string sound = with_options("", "", {}).arguments(folder_.path);
+  const auto run = run_program("run " + sound + " --set 'mesh.file=\"" + mesh.string() + "\"' --out " +
+                               folder_.path.string());
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, testing::AllOf(HasSubstr("--out"), HasSubstr(mesh.string())));
+  EXPECT_TRUE(fs::exists(mesh));
 }
 
 TEST(WrongUsage, RunWithoutAProtocol) {
