@@ -57,7 +57,7 @@ Table contraction_table() {
             .meaning = "asymptotic tension σ0 (see model)",
             .source = source})
       .key("activation_rate_per_s", &Contraction::activation_rate_per_s,
-           {.unit = "1/s", .range = above_zero(1000), .meaning = "rate a while active", .source = source})
+           {.unit = "1/s", .range = above_zero(5000), .meaning = "rate a while active", .source = source})
       .key("relaxation_rate_per_s", &Contraction::relaxation_rate_per_s,
            {.unit = "1/s", .range = above_zero(1000), .meaning = "rate −a while relaxing", .source = source})
       .key("activation_duration_ms", &Contraction::activation_duration_ms,
@@ -67,7 +67,7 @@ Table contraction_table() {
             .source = source + ": 484 − 160 ms"})
       .key("switch_width_ms", &Contraction::switch_width_ms,
            {.unit = "ms",
-            .range = above_zero(500),
+            .range = {0.1, 500},
             .meaning = "width w of the switches ½ (1 ± tanh(t/w)) between the two rates",
             .source = source})
       .key("cross_fibre_fraction", &Contraction::cross_fibre_fraction,
@@ -87,58 +87,62 @@ Table cavities_table() {
       .key("right_pressure_mmHg", &Cavities::right_pressure_mmHg,
            {.unit = "mmHg",
             .range = {0, 1000},
-            .meaning = "the same in the right ventricle, on a mesh that has one"});
+            .meaning = "the same in the right ventricle, on a mesh that has one",
+            .used_with = "anatomy.scheme",
+            .used_values = {"aha29"}});
   return table.build();
 }
 
 // What the closed loop of two ventricles has beside the left ventricle's.
 void add_right_circulation(TableBuilder<std::optional<Circulation>>& table) {
   const std::string unit = "mmHg·s/mL";
-  const std::string only = " (two ventricles only)";
+  const auto of_two = [](KeyFacts facts) {
+    facts.used_with = "anatomy.scheme";
+    facts.used_values = {"aha29"};
+    return facts;
+  };
   table
       .key("right_filling_pressure_mmHg", &Circulation::right_filling_pressure_mmHg,
-           {.unit = "mmHg",
-            .range = {0, 100},
-            .meaning = "pressure before the tricuspid valve (right atrium) when the first beat begins; with "
+           of_two({.unit = "mmHg",
+                   .range = {0, 100},
+                   .meaning =
+                       "pressure before the tricuspid valve (right atrium) when the first beat begins; with "
                        "two ventricles filling_pressure_mmHg too is only the first value of that before the "
-                       "mitral valve" +
-                       only})
+                       "mitral valve"}))
       .key("tricuspid_resistance_mmHg_s_per_mL", &Circulation::tricuspid_resistance_mmHg_s_per_mL,
-           {.unit = unit,
-            .range = above_zero(100),
-            .meaning = "resistance of the open tricuspid valve" + only})
+           of_two(
+               {.unit = unit, .range = above_zero(100), .meaning = "resistance of the open tricuspid valve"}))
       .key("pulmonary_valve_resistance_mmHg_s_per_mL", &Circulation::pulmonary_valve_resistance_mmHg_s_per_mL,
-           {.unit = unit,
-            .range = above_zero(100),
-            .meaning = "resistance of the open pulmonary valve" + only})
+           of_two(
+               {.unit = unit, .range = above_zero(100), .meaning = "resistance of the open pulmonary valve"}))
       .key("pulmonary_characteristic_resistance_mmHg_s_per_mL",
            &Circulation::pulmonary_characteristic_resistance_mmHg_s_per_mL,
-           {.unit = unit,
-            .range = {0, 100},
-            .meaning = "resistance between the pulmonary valve and the compliance" + only})
+           of_two({.unit = unit,
+                   .range = {0, 100},
+                   .meaning = "resistance between the pulmonary valve and the compliance"}))
       .key("pulmonary_peripheral_resistance_mmHg_s_per_mL",
            &Circulation::pulmonary_peripheral_resistance_mmHg_s_per_mL,
-           {.unit = unit,
-            .range = above_zero(1000),
-            .meaning = "resistance of the lungs, from the compliance to the pulmonary veins" + only,
-            .source = "Regazzoni 2022: 0.046 + 0.0015"})
+           of_two({.unit = unit,
+                   .range = above_zero(1000),
+                   .meaning = "resistance of the lungs, from the compliance to the pulmonary veins",
+                   .source = "Regazzoni 2022: 0.046 + 0.0015"}))
       .key("pulmonary_compliance_mL_per_mmHg", &Circulation::pulmonary_compliance_mL_per_mmHg,
-           {.unit = "mL/mmHg",
-            .range = above_zero(200),
-            .meaning = "compliance of the pulmonary arteries" + only})
+           of_two({.unit = "mL/mmHg",
+                   .range = above_zero(200),
+                   .meaning = "compliance of the pulmonary arteries"}))
       .key("pulmonary_venous_compliance_mL_per_mmHg", &Circulation::pulmonary_venous_compliance_mL_per_mmHg,
-           {.unit = "mL/mmHg",
-            .range = above_zero(500),
-            .meaning = "compliance of the pulmonary veins and the left atrium" + only,
-            .source = "Regazzoni 2022: 16"})
+           of_two({.unit = "mL/mmHg",
+                   .range = above_zero(500),
+                   .meaning = "compliance of the pulmonary veins and the left atrium",
+                   .source = "Regazzoni 2022: 16"}))
       .key("systemic_venous_compliance_mL_per_mmHg", &Circulation::systemic_venous_compliance_mL_per_mmHg,
-           {.unit = "mL/mmHg",
-            .range = above_zero(500),
-            .meaning = "compliance of the systemic veins and the right atrium" + only})
+           of_two({.unit = "mL/mmHg",
+                   .range = above_zero(500),
+                   .meaning = "compliance of the systemic veins and the right atrium"}))
       .key("initial_pulmonary_pressure_mmHg", &Circulation::initial_pulmonary_pressure_mmHg,
-           {.unit = "mmHg",
-            .range = {0, 300},
-            .meaning = "pressure of the pulmonary compliance when the first beat begins" + only});
+           of_two({.unit = "mmHg",
+                   .range = {0, 300},
+                   .meaning = "pressure of the pulmonary compliance when the first beat begins"}));
 }
 
 Table circulation_table() {
@@ -178,7 +182,11 @@ Table circulation_table() {
             .meaning = "compliance of the arteries",
             .source = "Regazzoni 2022: 1.372"})
       .key("venous_pressure_mmHg", &Circulation::venous_pressure_mmHg,
-           {.unit = "mmHg", .range = {0, 100}, .meaning = "pressure behind the small vessels"})
+           {.unit = "mmHg",
+            .range = {0, 100},
+            .meaning = "pressure behind the small vessels",
+            .used_with = "anatomy.scheme",
+            .used_values = {"aha17"}})
       .key("initial_aortic_pressure_mmHg", &Circulation::initial_aortic_pressure_mmHg,
            {.unit = "mmHg",
             .range = {0, 300},
@@ -221,7 +229,7 @@ Table time_table() {
             .range = {1e-10, 10},
             .meaning = "absolute tolerance of pressures in the time integration"})
       .key("max_step_ms", &Time::max_step_ms,
-           {.unit = "ms", .range = above_zero(1000), .meaning = "longest time step"})
+           {.unit = "ms", .range = {0.01, 1000}, .meaning = "longest time step"})
       .key(
           "load_steps", &Time::load_steps,
           {.range = {1, 1000}, .meaning = "steps in which a static load is raised; cut further where needed"})
@@ -236,7 +244,7 @@ Table output_table() {
   TableBuilder table("output", "What is written, and how often.", &Protocol::output);
   table
       .key("interval_ms", &Output::interval_ms,
-           {.unit = "ms", .range = above_zero(1e5), .meaning = "time between two rows or meshes"})
+           {.unit = "ms", .range = {0.1, 1e5}, .meaning = "time between two rows or meshes"})
       .key("tables", &Output::tables, {.meaning = "strain, affine and cavity tables (.csv)"})
       .key("figures", &Output::figures,
            {.meaning = "bull's-eyes, strain curves, pressure–volume loop, report"})

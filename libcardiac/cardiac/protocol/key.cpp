@@ -78,15 +78,21 @@ const Key* find_key(const Table& table, const std::string& name) {
 }
 
 bool plays_a_part(const Table& table, const Key& key, const Protocol& protocol, std::size_t entry) {
-  if (key.facts.used_with.empty()) return true;
-  const Json decisive = find_key(table, key.facts.used_with)->get(protocol, entry);
+  const std::string& with = key.facts.used_with;
+  if (with.empty()) return true;
+  const std::size_t dot = with.find('.');
+  const Json decisive =
+      dot == std::string::npos
+          ? find_key(table, with)->get(protocol, entry)
+          : find_key(*find_table(with.substr(0, dot)), with.substr(dot + 1))->get(protocol, 0);
   if (key.facts.used_values.empty()) return !decisive.is_null();
   return decisive.is_string() &&
          std::ranges::find(key.facts.used_values, decisive.get<std::string>()) != key.facts.used_values.end();
 }
 
 std::string condition_text(const Table& table, const Key& key) {
-  std::string text = key.facts.used_with.empty() ? "" : table.name + '.' + key.facts.used_with;
+  const std::string& with = key.facts.used_with;
+  std::string text = with.empty() || with.find('.') != std::string::npos ? with : table.name + '.' + with;
   for (std::size_t i = 0; i < key.facts.used_values.size(); ++i) {
     text += (i ? " or " : " = ") + key.facts.used_values[i];
   }

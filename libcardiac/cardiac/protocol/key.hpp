@@ -33,7 +33,8 @@ struct KeyFacts {
   std::string source = {};   ///< where the default comes from
   std::string absent = {};   ///< what happens without the key, where there is no default
   bool required = false;
-  std::string used_with = {};  ///< key of the same table that decides whether this one plays a part
+  std::string used_with =
+      {};  ///< key that decides whether this one plays a part: of its table, or "table.key"
   std::vector<std::string> used_values = {};  ///< with these values; empty: when it is given at all
 };
 
@@ -68,7 +69,7 @@ std::vector<Table> beat_tables();
 const Table* find_table(const std::string& name);
 const Key* find_key(const Table& table, const std::string& name);
 
-/// Does the key play a part, given its used_with key in the same table entry?
+/// Does the key play a part, given its used_with key (in the same entry where that is of the same table)?
 bool plays_a_part(const Table& table, const Key& key, const Protocol& protocol, std::size_t entry);
 
 /// The condition under which the key plays a part, in words ("tissue.law = guccione"); empty without one.

@@ -146,8 +146,10 @@ Protocol parse_protocol(const std::string& text, const std::filesystem::path& so
   protocol.directory = source.parent_path();
   for (const Entry& entry : entries) assign(protocol, entry);
   check_required(protocol, entries, source.string());
-  check_rules(protocol, place_in(entries, source.string()));
+  const Place place = place_in(entries, source.string());
+  check_rules(protocol, place);
   fill_presets(protocol);
+  warn_of_limits(protocol, place);
   warn_of_unused(protocol, entries);
   return protocol;
 }

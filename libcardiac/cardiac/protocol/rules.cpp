@@ -4,6 +4,7 @@
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 
 #include <cardiac/protocol/names.hpp>
 #include <cardiac/protocol/nearest_key.hpp>
@@ -14,6 +15,10 @@ namespace cardiac::protocol {
 namespace {
 
 using polyaffine::InputError;
+
+// Contrast of stiffness between neighbouring segments up to which `cardiac validate extreme` finds the
+// reduced model near full order.
+constexpr double kSoftest = 0.2, kStiffest = 30;
 
 [[noreturn]] void fail(const Place& place, const std::string& path, const std::string& text) {
   throw InputError(place(path) + ": " + path + ": " + text);
@@ -105,6 +110,19 @@ void check_reduction(const Reduction& reduction, const Place& place) {
          "\"tents\"");
 }
 
+// The pressures take the rest of the bulk modulus, so there must be one.
+void check_local_bulk_modulus(const Protocol& protocol, const Place& place) {
+  const Reduction& reduction = protocol.reduction;
+  const double local = reduction.local_bulk_modulus_kPa, whole = protocol.tissue.bulk_modulus_kPa;
+  if (reduction.method == Method::fem || reduction.pressure_space == PressureSpace::none ||
+      protocol.tissue.law == TissueLaw::saint_venant_kirchhoff || local < whole)
+    return;
+  std::ostringstream text;
+  text << "found " << local << " kPa, expected less than tissue.bulk_modulus_kPa, which is " << whole
+       << " kPa";
+  fail(place, "reduction.local_bulk_modulus_kPa", text.str());
+}
+
 void check_activity(const Protocol& protocol, const Place& place) {
   if (protocol.contraction && !protocol.activation) {
     fail(place, "contraction", "needs a table [activation] that says when the muscle is excited");
@@ -189,6 +207,22 @@ void fill_presets(Protocol& protocol) {
   if (!reduction.border_functions) reduction.border_functions = contrast && aha_tents(reduction);
 }
 
+void warn_of_limits(Protocol& protocol, const Place& place) {
+  if (protocol.reduction.method == Method::fem) return;
+  for (std::size_t i = 0; i < protocol.regions.size(); ++i) {
+    const double factor = protocol.regions[i].stiffness_factor;
+    if (factor >= kSoftest && factor <= kStiffest) continue;
+    std::ostringstream text;
+    const std::string path = key_path("region", i, "stiffness_factor");
+    text << place(path) << ": " << path << ": found " << factor << "; below " << kSoftest << " and above "
+         << kStiffest
+         << " the reduced model, whose functions reach over the borders of segments, is too stiff there by "
+            "more "
+            "than a tenth; reduction.method = \"fem\" is not";
+    protocol.warnings.push_back(text.str());
+  }
+}
+
 std::string why_fibres(const Protocol& protocol) {
   const Tissue& tissue = protocol.tissue;
   if (protocol.contraction) return "the muscle contracts along them";
@@ -207,6 +241,7 @@ void check_rules(const Protocol& protocol, const Place& place) {
   check_mesh(protocol.mesh, place);
   check_anatomy(protocol.anatomy, place);
   check_reduction(protocol.reduction, place);
+  check_local_bulk_modulus(protocol, place);
   check_activity(protocol, place);
   check_load(protocol, place);
   check_regions(protocol.regions, protocol.anatomy.scheme, place);

@@ -14,6 +14,9 @@ using Place = std::function<std::string(const std::string& path)>;
 /// more functions along the wall where regions differ.
 void fill_presets(Protocol& protocol);
 
+/// Adds warnings about values that are allowed and lead beyond what the reduced model can tell.
+void warn_of_limits(Protocol& protocol, const Place& place);
+
 /// Does some [[region]] move otherwise than the rest: another stiffness or, where something contracts,
 /// another tension or time?
 bool regions_differ(const Protocol& protocol);

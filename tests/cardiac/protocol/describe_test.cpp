@@ -121,7 +121,8 @@ TEST(Schema, IsStrictAndListsTheKeysThatParse) {
   for (const auto& [name, table] : schema.at("properties").items()) {
     const json object = object_schema(table);
     EXPECT_EQ(object.at("additionalProperties"), false) << name;
-    for (const auto& [key, property] : object.at("properties").items()) {
+    for (const auto& [key, value_schema] : object.at("properties").items()) {
+      const json& property = value_schema;  // which lambdas may take, a binding not
       paths.insert(name + '.' + key);
       // A date is of no key's type: the parser knows the key when it complains of the type.
       const std::string text = name == "region" ? "[[region]]\n" : '[' + name + "]\n";
@@ -140,7 +141,8 @@ TEST(Schema, RangesAreThoseOfTheParser) {
   int checked = 0;
   for (const auto& [name, table] : schema.at("properties").items()) {
     const json object = object_schema(table);
-    for (const auto& [key, property] : object.at("properties").items()) {
+    for (const auto& [key, value_schema] : object.at("properties").items()) {
+      const json& property = value_schema;       // which lambdas may take, a binding not
       if (!property.contains("type")) continue;  // labels: a number or a name
       if (property.at("type") != "number" && property.at("type") != "integer") continue;
       const std::string head = (name == "region" ? "[[region]]\n" : '[' + name + "]\n") + key + " = ";

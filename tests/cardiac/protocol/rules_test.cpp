@@ -39,6 +39,40 @@ TEST(Rules, EnrichmentAndRings) {
   EXPECT_THAT(refusal(kPassive, {"reduction.ring_angles_deg=[0, 30]"}), HasSubstr("each of the 3 rings"));
 }
 
+TEST(Rules, ThePressuresNeedAPartOfTheBulkModulus) {
+  EXPECT_THAT(refusal(kPassive, {"tissue.bulk_modulus_kPa=6"}),
+              AllOf(HasSubstr("reduction.local_bulk_modulus_kPa: found 6 kPa"), HasSubstr("which is 6 kPa")));
+  EXPECT_NO_THROW(parsed(kPassive, {"tissue.bulk_modulus_kPa=6.1"}));
+  EXPECT_NO_THROW(parsed(kPassive, {"tissue.bulk_modulus_kPa=6", "reduction.method=fem"}));
+  EXPECT_NO_THROW(parsed(kPassive, {"tissue.bulk_modulus_kPa=6", "reduction.pressure_space=none"}));
+}
+
+TEST(Rules, ContrastsBeyondTheReducedModelAreWarnedOf) {
+  const auto warnings = [](const std::string& factor, const std::string& method) {
+    return parsed(kPassive + "[[region]]\nsegments = [7]\nstiffness_factor = " + factor + "\n",
+                  {"reduction.method=" + method})
+        .warnings;
+  };
+  for (const char* factor : {"0.19", "31"}) {
+    ASSERT_THAT(warnings(factor, "polyaffine"), SizeIs(1)) << factor;
+    EXPECT_THAT(warnings(factor, "polyaffine")[0],
+                AllOf(HasSubstr("region.1.stiffness_factor: found "), HasSubstr(factor)));
+    EXPECT_THAT(warnings(factor, "fem"), IsEmpty());
+  }
+  for (const char* factor : {"0.2", "30"}) EXPECT_THAT(warnings(factor, "polyaffine"), IsEmpty()) << factor;
+}
+
+TEST(Rules, KeysOfTwoVentriclesPlayNoPartWithOne) {
+  const std::string right = "circulation.right_filling_pressure_mmHg",
+                    veins = "circulation.venous_pressure_mmHg";
+  const auto one = parsed(kBeat, {right + "=4", veins + "=3"}).warnings;
+  ASSERT_THAT(one, SizeIs(1));
+  EXPECT_THAT(one[0], AllOf(HasSubstr(right), HasSubstr("it goes with anatomy.scheme = aha29")));
+  const auto two = parsed(kBeat, {right + "=4", veins + "=3", "anatomy.scheme=aha29"}).warnings;
+  ASSERT_THAT(two, SizeIs(1));
+  EXPECT_THAT(two[0], AllOf(HasSubstr(veins), HasSubstr("it goes with anatomy.scheme = aha17")));
+}
+
 TEST(Rules, PartsThatNeedOthers) {
   const std::string shape = "[mesh]\nshape = \"human_lv\"\n";
   const std::string soft = "[tissue]\nlaw = \"neo_hookean\"\n";
