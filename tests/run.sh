@@ -5,21 +5,23 @@
 #   --debug     also compare the tables of an unoptimised build with those of the release build (1e-8)
 #   --plain     also compare the tables of a build without VTK and CGAL with those of the release build (equal)
 #   --cost      also measure time, memory and libraries of some scenes and the start of the program
+#   --extreme   also run `cardiac validate extreme`, in 15 minutes at most, and its --quick set, in 2
 #   --tidy      also run clang-tidy over all sources
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 source apps/setup.sh
 
-sanitize=no debug=no plain=no cost=no tidy=no
+sanitize=no debug=no plain=no cost=no extreme=no tidy=no
 for option in "$@"; do
   case $option in
     --sanitize) sanitize=yes ;;
     --debug) debug=yes ;;
     --plain) plain=yes ;;
     --cost) cost=yes ;;
+    --extreme) extreme=yes ;;
     --tidy) tidy=yes ;;
     *)
-      echo "usage: bash tests/run.sh [--sanitize] [--debug] [--plain] [--cost] [--tidy]" >&2
+      echo "usage: bash tests/run.sh [--sanitize] [--debug] [--plain] [--cost] [--extreme] [--tidy]" >&2
       exit 2
       ;;
   esac
@@ -62,6 +64,11 @@ for preset in "${presets[@]}"; do
 done
 [[ $plain == yes ]] && check "tables (plain)" same_tables plain 0
 [[ $debug == yes ]] && check "tables (debug)" same_tables debug 1e-8
+extremes() { timeout "$1" build/release/bin/cardiac validate extreme --out build/extremes "${@:2}"; }
+if [[ $extreme == yes ]]; then
+  check "extremes (quick, 2 minutes)" extremes 120 --quick
+  check "extremes (15 minutes)" extremes 900
+fi
 [[ $cost == yes ]] && check "cost of scenes" bash tests/footprint.sh
 
 if ((${#failed[@]})); then

@@ -1,7 +1,9 @@
 #include "cardiac/heart/wall.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include <cardiac/fibres/helix.hpp>
 #include <cardiac/tissue/active_stress.hpp>
@@ -125,11 +127,13 @@ std::shared_ptr<const polyaffine::FieldEnergy> build_wall(const Anatomy& anatomy
     else
       pressure = pressure_space(discretisation, table, protocol);
     // What few pressures do not see, local changes of volume, a small part of the bulk modulus keeps in
-    // check.
+    // check; less where the wall is softer, which that part would hold back.
     if (const double local = protocol.reduction.local_bulk_modulus_kPa;
         pressure && discretisation.frame_basis && local > 0) {
-      laws.push_back(std::make_shared<polyaffine::QuadraticVolumetric>(
-          local, apical_factor(anatomy, discretisation, tissue.bulk_modulus_kPa / local)));
+      auto factor = apical_factor(anatomy, discretisation, tissue.bulk_modulus_kPa / local);
+      for (std::size_t q = 0; q < factors.stiffness.size(); ++q)
+        factor[q] *= std::min(1.0, factors.stiffness[q]);
+      laws.push_back(std::make_shared<polyaffine::QuadraticVolumetric>(local, std::move(factor)));
       pressure->bulk_modulus -= local;
     }
   }

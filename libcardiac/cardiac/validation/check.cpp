@@ -68,7 +68,10 @@ std::string validation_text(const std::vector<Check>& checks) {
       list.back()["record"] = {{"steps", c.record->steps},
                                {"newton_iterations", c.record->newton_iterations},
                                {"cuts", c.record->cuts},
-                               {"outcome", c.record->outcome}};
+                               {"completed", c.record->completed},
+                               {"simulated_ms", number(c.record->simulated_ms)},
+                               {"outcome", c.record->outcome},
+                               {"warnings", c.record->warnings}};
   }
   return Json{{"checks", list}, {"passed", all_passed(checks)}}.dump(2) + "\n";
 }

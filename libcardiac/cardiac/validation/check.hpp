@@ -15,7 +15,10 @@ namespace cardiac {
 /// What a computation behind a check took, and how it ended.
 struct CheckRecord {
   int steps = 0, newton_iterations = 0, cuts = 0;
+  double simulated_ms = 0;  ///< how far it came
+  bool completed = false;
   std::string outcome;  ///< "completed", or why it stopped
+  std::vector<std::string> warnings{};
 };
 
 /// One number of a validation case against its reference.

@@ -16,13 +16,16 @@ struct ExtremeOutcome {
   std::string scene, method;
   HeartPath path;
   std::string reason;  ///< why it stopped or was refused; empty when it completed
+  bool told = true;    ///< the reason is one for a user: neither cut off after too long nor unforeseen
   bool finite = true;  ///< no state holds a number that is none
   double cavity_at_rest_mm3 = 0;
+  int smallest_region_tets = 0;  ///< of the regions of the control nodes; 0 in full order
   double wall_s = 0;
 
   bool completed() const { return reason.empty() && finite; }
-  double cavity_ratio() const;        ///< last state over unloaded
-  double smallest_ratio() const;      ///< smallest cavity over unloaded
+  double cavity_ratio() const;    ///< last state over unloaded
+  double smallest_ratio() const;  ///< smallest cavity over unloaded
+  double inflation() const { return cavity_ratio() - 1; }
   double ef_percent() const;          ///< of the last beat, from the largest to the smallest volume
   double peak_pressure_mmHg() const;  ///< of the last beat
 };
@@ -35,6 +38,9 @@ struct ExtremeMesh {
 
 /// The ventricle of human_lv as structured_ellipsoid makes it.
 ExtremeMesh extreme_mesh(const StructuredCells& cells);
+
+/// A number as a protocol says it.
+std::string as_text(double value);
 
 /// A range with what it rests on.
 struct ExtremeBound {
@@ -53,18 +59,21 @@ class ExtremeChecks {
   const ExtremeMesh& coarse_wall() const { return coarse_wall_; }
 
   /// Runs a protocol with settings key=value on a mesh; refusals and failures are part of the outcome. A run
-  /// of more than two minutes is stopped.
+  /// of more than two minutes is stopped, which no check accepts.
   ExtremeOutcome run(const std::string& scene, const ExtremeMesh& mesh, const std::string& protocol,
                      const std::vector<std::string>& settings) const;
 
   /// A number of an outcome that must complete.
   void expect(const ExtremeOutcome& outcome, const std::string& quantity, const std::string& unit,
               double value, const ExtremeBound& bound);
-  /// The same for a scene that has no solution, or may have none: completed within the bound, or stopped with
-  /// a reason and with finite states.
+  /// The same for a scene that has no solution, or may have none: completed within the bound, or stopped as
+  /// expect_refusal asks.
   void expect_or_stop(const ExtremeOutcome& outcome, const std::string& quantity, const std::string& unit,
-                      double value, const ExtremeBound& bound);
-  /// Must be refused or stop with a reason that holds some words.
+                      double value, const ExtremeBound& bound, const std::string& words);
+  /// The inflation of a cavity within some percent of that of another run, which must have completed too.
+  void expect_inflation_of(const ExtremeOutcome& outcome, const ExtremeOutcome& reference, double percent,
+                           const std::string& source);
+  /// Must be refused or stop, with finite states and a reason that holds some words.
   void expect_refusal(const ExtremeOutcome& outcome, const std::string& words);
   void add(Check check) { checks_.push_back(std::move(check)); }
 
@@ -75,6 +84,9 @@ class ExtremeChecks {
   ExtremeMesh wall_, coarse_wall_;
   std::vector<Check> checks_;
 };
+
+/// What a load stepping says that finds no further equilibrium.
+extern const char* const kNoEquilibrium;
 
 /// Passive inflation of a neo-Hookean wall, and a beat: the protocols that the scenes change.
 extern const char* const kExtremePassive;

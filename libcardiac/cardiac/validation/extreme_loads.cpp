@@ -18,14 +18,15 @@ void pressures(ExtremeChecks& checks) {
     checks.expect(fivefold, "cavity_ratio", "1", fivefold.cavity_ratio(), {5, 5, 40, "at least fivefold"});
     const auto beyond = run("beyond_the_limit_load", {"cavities.pressure_mmHg=200"});
     checks.expect_or_stop(beyond, "cavity_ratio", "1", beyond.cavity_ratio(),
-                          {5, 5, 1e3, "neo-Hookean cavities have a limit load"});
+                          {5, 5, 1e3, "neo-Hookean cavities have a limit load"}, kNoEquilibrium);
     const auto suction = run("suction_2_kPa", {"cavities.pressure_mmHg=-15.0012"});
-    checks.expect_or_stop(suction, "cavity_ratio", "1", suction.cavity_ratio(), {0.5, 0.05, 1, "sucked in"});
+    checks.expect_or_stop(suction, "cavity_ratio", "1", suction.cavity_ratio(), {0.5, 0.05, 0.7, "sucked in"},
+                          kNoEquilibrium);
     const auto half = run("suction_1_kPa", {"cavities.pressure_mmHg=-7.5006"});
-    checks.expect(half, "cavity_ratio", "1", half.cavity_ratio(), {0.7, 0.3, 1, "sucked in"});
+    checks.expect(half, "cavity_ratio", "1", half.cavity_ratio(), {0.7, 0.6, 0.8, "sucked in"});
     const auto collapse = run("suction_13_kPa", {"cavities.pressure_mmHg=-100"});
     checks.expect_or_stop(collapse, "cavity_ratio", "1", collapse.cavity_ratio(),
-                          {0, -1, 1, "a wall that buckles, or stops"});
+                          {0, -1, 0.5, "a wall that buckles, or stops"}, kNoEquilibrium);
     const auto steps = run("in_ten_steps", {"time.load_steps=10"});
     const auto one = run("in_one_step", {"time.load_steps=1"});
     checks.expect(one, "cavity_ratio", "1", one.cavity_ratio(),
@@ -42,13 +43,13 @@ void tensions(ExtremeChecks& checks) {
   for (const bool fem : {false, true})
     for (const char* tension : {"60", "300"}) {
       std::vector<std::string> settings{
-          std::string("contraction.contractility_kPa=") + tension, "contraction.activation_rate_per_s=1000",
+          std::string("contraction.contractility_kPa=") + tension, "contraction.activation_rate_per_s=5000",
           "contraction.switch_width_ms=0.2", "contraction.activation_duration_ms=100"};
       if (fem) settings = full_order(settings);
       const auto outcome = checks.run("loads/held_" + std::string(tension) + "_kPa_within_1_ms",
                                       checks.coarse_wall(), held, settings);
       checks.expect_or_stop(outcome, "smallest_cavity_ratio", "1", outcome.smallest_ratio(),
-                            {0.5, 0.1, 1, "contracted against the pressure of filling"});
+                            {0.5, 0.1, 0.9, "contracted against the pressure of filling"}, kNoEquilibrium);
     }
 }
 

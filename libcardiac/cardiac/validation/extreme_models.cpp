@@ -3,7 +3,9 @@
 namespace cardiac {
 namespace {
 
-void nodes(ExtremeChecks& checks, const ExtremeMesh& mesh, double full) {
+const char* const kSameMesh = "full order on the same mesh";
+
+void nodes(ExtremeChecks& checks, const ExtremeMesh& mesh, const ExtremeOutcome& full) {
   struct Layout {
     std::string name, rings;
     double percent;
@@ -16,33 +18,33 @@ void nodes(ExtremeChecks& checks, const ExtremeMesh& mesh, double full) {
     for (const Layout& layout : layouts) {
       if (checks.quick() && layout.name == "120" && std::string(preset) == "accurate") continue;
       const auto outcome =
-          checks.run("models/nodes_" + layout.name, mesh, kExtremePassive,
+          checks.run("models/nodes_" + layout.name + "_" + preset, mesh, kExtremePassive,
                      {"reduction.ring_nodes=" + layout.rings, std::string("reduction.preset=") + preset});
-      checks.expect(outcome, std::string("cavity_ratio_") + preset, "1", outcome.cavity_ratio(),
-                    {full, full * (1 - layout.percent / 100), full * (1 + layout.percent / 100),
-                     "full order on the same mesh"});
+      checks.expect_inflation_of(outcome, full, layout.percent, kSameMesh);
     }
   checks.expect_refusal(checks.run("models/nodes_1", mesh, kExtremePassive, {"reduction.ring_nodes=[]"}),
                         "expected at least one ring");
   const auto near =
       checks.run("models/coincident_nodes", mesh, kExtremePassive,
                  {"reduction.ring_nodes=[6, 6, 6]", "reduction.ring_positions=[0.5, 0.5001, 0.8]"});
-  checks.expect_or_stop(near, "cavity_ratio", "1", near.cavity_ratio(),
-                        {full, 0.85 * full, 1.15 * full, "full order on the same mesh"});
+  checks.expect_or_stop(near, "inflation", "1", near.inflation(),
+                        {full.inflation(), 0.85 * full.inflation(), 1.15 * full.inflation(), kSameMesh},
+                        "the functions of the model are not independent");
   const auto tiny = checks.run("models/regions_of_two_tets", checks.wall(), kExtremePassive,
                                {"reduction.ring_nodes=[12, 20, 24, 20]"});
-  checks.expect_or_stop(tiny, "cavity_ratio", "1", tiny.cavity_ratio(),
-                        {full, 0.8 * full, 1.2 * full, "full order"});
+  checks.expect(tiny, "tets_of_the_smallest_region", "1", tiny.smallest_region_tets, {2, 1, 2, "the scene"});
+  checks.expect_inflation_of(
+      tiny, checks.run("models/regions_of_two_tets", checks.wall(), kExtremePassive, full_order({})), 20,
+      kSameMesh);
 }
 
-void weights(ExtremeChecks& checks, const ExtremeMesh& mesh, double full) {
+void weights(ExtremeChecks& checks, const ExtremeMesh& mesh, const ExtremeOutcome& full) {
   for (const char* slope : {"0.5", "2.25", "20"}) {
     if (checks.quick() && std::string(slope) == "2.25") continue;
     const auto outcome =
         checks.run(std::string("models/sigmoid_") + slope, mesh, kExtremePassive,
                    {"reduction.weights=sigmoid", std::string("reduction.sigmoid_slope=") + slope});
-    checks.expect_or_stop(outcome, "cavity_ratio", "1", outcome.cavity_ratio(),
-                          {full, 0.5 * full, 1.5 * full, "full order on the same mesh"});
+    checks.expect_inflation_of(outcome, full, 50, kSameMesh);
   }
 }
 
@@ -50,7 +52,7 @@ void weights(ExtremeChecks& checks, const ExtremeMesh& mesh, double full) {
 
 void extreme_models(ExtremeChecks& checks) {
   const ExtremeMesh mesh = extreme_mesh({12, 24, 2});
-  const double full = checks.run("models/full_order", mesh, kExtremePassive, full_order({})).cavity_ratio();
+  const auto full = checks.run("models/full_order", mesh, kExtremePassive, full_order({}));
   nodes(checks, mesh, full);
   weights(checks, mesh, full);
   checks.expect_refusal(checks.run("models/more_nodes_than_tets", extreme_mesh({3, 6, 1}), kExtremePassive,

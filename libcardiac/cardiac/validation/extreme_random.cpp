@@ -8,7 +8,7 @@
 namespace cardiac {
 namespace {
 
-// Settings of a beat drawn from the ranges that README.md and the keys' explanations call those of hearts.
+// Settings of a beat drawn from the ranges of README.md, "Random hearts".
 std::vector<std::string> draw(unsigned seed) {
   std::mt19937 random(seed);
   std::vector<std::string> out{"time.max_beats=2"};
@@ -51,6 +51,11 @@ std::vector<std::string> draw(unsigned seed) {
   return out;
 }
 
+bool pumps(const ExtremeOutcome& outcome) {
+  const double ef = outcome.ef_percent(), peak = outcome.peak_pressure_mmHg();
+  return ef > 0 && ef < 90 && peak > 10 && peak < 350;
+}
+
 }  // namespace
 
 void extreme_random(ExtremeChecks& checks) {
@@ -61,13 +66,15 @@ void extreme_random(ExtremeChecks& checks) {
                              draw(static_cast<unsigned>(k)));
   });
   std::vector<double> times;
-  int completed = 0, told = 0;
+  int completed = 0, told = 0, pumping = 0, whole = 0;
   ExtremeOutcome all;
   all.scene = "random";
   all.method = "polyaffine, " + std::to_string(count) + " protocols";
   for (const ExtremeOutcome& one : outcomes) {
     completed += one.completed();
-    told += one.completed() || (!one.reason.empty() && one.finite);
+    told += one.completed() || (!one.reason.empty() && one.told && one.finite);
+    pumping += one.completed() && pumps(one);
+    whole += one.completed() && one.path.min_det_F > 0.1;
     times.push_back(one.wall_s);
     all.wall_s += one.wall_s;
     all.path.time_steps += one.path.time_steps;
@@ -79,6 +86,10 @@ void extreme_random(ExtremeChecks& checks) {
   std::ranges::sort(times);
   checks.expect(all, "completed_percent", "%", 100.0 * completed / count,
                 {100, 99, 100, "hearts of these ranges"});
+  checks.expect(all, "pumping_of_completed_percent", "%", 100.0 * pumping / completed,
+                {100, 100, 100, "ejection fraction 0 to 90 %, peak 10 to 350 mmHg"});
+  checks.expect(all, "wall_above_a_tenth_of_completed_percent", "%", 100.0 * whole / completed,
+                {100, 99, 100, "no point of the wall below a tenth of its volume"});
   checks.expect(all, "completed_or_told_percent", "%", 100.0 * told / count, {100, 100, 100, "none is lost"});
   checks.expect(all, "longest_over_median_time", "1", times.back() / times[times.size() / 2],
                 {1, 0, 20, "none holds up the others"});

@@ -38,7 +38,7 @@ TEST(ExtremeChecks, AStoppedRunNeedsAReasonAndIsNoSuccess) {
   EXPECT_FALSE(outcome.completed());
   EXPECT_GT(outcome.path.steps.size(), 1U) << "what was reached is kept";
   checks.expect(outcome, "cavity_ratio", "1", 1, {1, 0, 2, "test"});
-  checks.expect_or_stop(outcome, "cavity_ratio", "1", 1, {1, 0, 2, "test"});
+  checks.expect_or_stop(outcome, "cavity_ratio", "1", 1, {1, 0, 2, "test"}, kNoEquilibrium);
   checks.expect_refusal(outcome, "limit load");
   checks.expect_refusal(outcome, "words that it does not say");
   EXPECT_FALSE(checks.checks()[0].passed());
