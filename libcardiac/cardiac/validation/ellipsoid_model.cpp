@@ -142,7 +142,10 @@ EllipsoidProblem::Solution EllipsoidProblem::solve_held(const std::vector<std::s
       polyaffine::surface_table(*d.basis, d.cavity_points, anatomy_->coordinates->base_centre()),
       std::vector<std::shared_ptr<const polyaffine::Law>>{
           std::make_shared<polyaffine::SignedVolume>(1.0 / 3)});
-  if (stiffness <= 0) return solve(std::move(v), fixed_base(*anatomy_, *d.basis), 1);
+  if (stiffness <= 0) {
+    auto held = fixed_base(*anatomy_, *d.basis);
+    return solve(std::move(v), std::move(held), 1);
+  }
   polyaffine::SurfacePoints base = base_points(*anatomy_);
   base.weights = areas(base);
   v.springs.push_back(
