@@ -31,6 +31,7 @@ bool manifold(const TetMesh& mesh) {
 
 TetMesh with_regions(const IdealisedBiventricle& shape, const TetMesh& mesh) {
   std::vector<int> region;
+  region.reserve(mesh.num_tets());
   for (int t = 0; t < mesh.num_tets(); ++t) region.push_back(wall_region(shape, mesh.tet_centroid(t)));
   return {mesh.points(), mesh.tets(), region, {mesh.boundary(), mesh.boundary_labels()}};
 }

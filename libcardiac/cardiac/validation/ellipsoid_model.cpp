@@ -99,9 +99,9 @@ Protocol EllipsoidProblem::protocol(const std::vector<std::string>& settings) co
   return parse_protocol(kProtocol, "truncated ellipsoid", settings);
 }
 
-EllipsoidProblem::Solution EllipsoidProblem::solve(Ventricle ventricle,
-                                                   std::shared_ptr<const polyaffine::Projection> projection,
-                                                   int repetitions) const {
+EllipsoidProblem::Solution EllipsoidProblem::solve(
+    Ventricle ventricle, const std::shared_ptr<const polyaffine::Projection>& projection,
+    int repetitions) const {
   Solution out{std::move(ventricle), {}, 0, true};
   const auto system = projection ? polyaffine::projected_system(projection) : out.ventricle.make_system();
   auto problem = loaded_ventricle(out.ventricle, {pressure_});
@@ -143,8 +143,8 @@ EllipsoidProblem::Solution EllipsoidProblem::solve_held(const std::vector<std::s
       std::vector<std::shared_ptr<const polyaffine::Law>>{
           std::make_shared<polyaffine::SignedVolume>(1.0 / 3)});
   if (stiffness <= 0) {
-    auto held = fixed_base(*anatomy_, *d.basis);
-    return solve(std::move(v), std::move(held), 1);
+    const auto held = fixed_base(*anatomy_, *d.basis);
+    return solve(std::move(v), held, 1);
   }
   polyaffine::SurfacePoints base = base_points(*anatomy_);
   base.weights = areas(base);

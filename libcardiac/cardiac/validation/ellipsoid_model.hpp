@@ -45,7 +45,7 @@ class EllipsoidProblem {
   double base_motion(const Solution& solution) const;
 
  private:
-  Solution solve(Ventricle ventricle, std::shared_ptr<const polyaffine::Projection> projection,
+  Solution solve(Ventricle ventricle, const std::shared_ptr<const polyaffine::Projection>& projection,
                  int repetitions) const;
 
   std::shared_ptr<const Anatomy> anatomy_;

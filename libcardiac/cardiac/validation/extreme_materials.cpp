@@ -19,6 +19,7 @@ void incompressibility(ExtremeChecks& checks) {
                                          ? std::vector<double>{0.3, 0.49, 0.49999}
                                          : std::vector<double>{0.3, 0.4, 0.45, 0.49, 0.499, 0.4999, 0.49999};
   std::vector<std::pair<std::string, double>> moduli;
+  moduli.reserve(ratios.size() + 1);
   for (const double nu : ratios) moduli.emplace_back("nu_" + as_text(nu), bulk_modulus(nu));
   moduli.emplace_back("kappa_1e5_mu", 1e5 * kShear);
   for (const char* preset : {"fast", "accurate"}) {

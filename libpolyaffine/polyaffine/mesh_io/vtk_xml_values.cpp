@@ -125,8 +125,7 @@ std::string inflated(ByteStream& stream, std::size_t width, std::size_t size) {
   std::size_t packed = 0;
   for (std::size_t b = 0; b < blocks; ++b) {
     const std::size_t block = header_word(header, 3 + b, width);
-    if (block > stream.left() - packed)
-      stream.fail("found damaged data, expected blocks that fit the file");
+    if (block > stream.left() - packed) stream.fail("found damaged data, expected blocks that fit the file");
     packed += block;
   }
   const std::string in = stream.take(packed);

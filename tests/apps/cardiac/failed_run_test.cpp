@@ -28,7 +28,7 @@ int rows(const fs::path& table) {
 
 nlohmann::json check_failed(const ProgramRun& run, const fs::path& out) {
   EXPECT_EQ(run.status, 1) << run.err;
-  const auto summary = nlohmann::json::parse(whole_file(out / "summary.json"));
+  auto summary = nlohmann::json::parse(whole_file(out / "summary.json"));
   EXPECT_EQ(summary.at("completed"), false);
   const std::string reason = summary.at("stop_reason");
   EXPECT_FALSE(reason.empty());

@@ -165,9 +165,10 @@ TEST_F(SegmentCommand, WrongInputIsStatusTwoAndTouchesNothing) {
     EXPECT_THAT(run.out, IsEmpty()) << options;
   }
   EXPECT_EQ(run_program("segment none.vtu " + sound + " --out " + file().string()).status, 2);
+  const std::string into = "segment " + kLand + ' ' + sound + " --out ";
   for (const std::string& out :
        {(folder_.path / "segments.csv").string(), folder_.path.string() + "/no/a.vtu"}) {
-    const auto run = run_program("segment " + kLand + ' ' + sound + " --out " + out);
+    const auto run = run_program(into + out);
     EXPECT_EQ(run.status, 2) << out;
     EXPECT_THAT(run.err, HasSubstr("--out"));
   }

@@ -34,7 +34,7 @@ std::map<std::string, std::string> content(const fs::path& folder) {
 
 /// The results of an earlier run.
 fs::path earlier_results(const fs::path& in) {
-  const fs::path out = in / "results";
+  fs::path out = in / "results";
   fs::create_directory(out);
   for (const char* name : {"summary.json", "strain.csv", "heart_0000.vtu", "heart_0123.vtu", "heart.pvd",
                            "report.html", "pv_loop.svg", "note.txt"})
@@ -72,7 +72,7 @@ WrongInput with_mesh_table(const std::string& name, const std::string& table,
             std::ofstream(folder / "wrong.toml") << protocol_text(table);
             return (folder / "wrong.toml").string();
           },
-          message};
+          std::move(message)};
 }
 
 /// A sound protocol whose mesh is damaged; the message names the mesh.
