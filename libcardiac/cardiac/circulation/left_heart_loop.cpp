@@ -1,14 +1,9 @@
 #include "cardiac/circulation/left_heart_loop.hpp"
 
+#include "cardiac/circulation/outlet.hpp"
+
 namespace cardiac {
 namespace {
-
-/// The aortic valve and the proximal resistance in series.
-Valve aortic_outlet(const LeftHeartLoop& loop) {
-  const double proximal = loop.arteries.proximal_resistance_kPa_ms_per_mm3;
-  return {loop.aortic.resistance_kPa_ms_per_mm3 + proximal, loop.aortic.smoothing_kPa,
-          loop.aortic.leak_kPa_ms_per_mm3 + proximal};
-}
 
 /// A run of samples on a circle: from `begin`, `length` samples onwards.
 struct Run {
@@ -32,14 +27,15 @@ Run longest_run(const std::vector<bool>& flags) {
 
 LoopFlows loop_flows(const LeftHeartLoop& loop, double pressure_kPa, double capacitor_pressure_kPa) {
   const double in = valve_flow(loop.mitral, loop.filling_pressure_kPa - pressure_kPa).flow_mm3_per_ms;
-  const double out = valve_flow(aortic_outlet(loop), pressure_kPa - capacitor_pressure_kPa).flow_mm3_per_ms;
+  const double out =
+      valve_flow(outlet(loop.aortic, loop.arteries), pressure_kPa - capacitor_pressure_kPa).flow_mm3_per_ms;
   return {in, out, inlet_pressure(loop.arteries, capacitor_pressure_kPa, out)};
 }
 
 LoopResidual loop_residual(const LeftHeartLoop& loop, double volume_rate_mm3_per_ms, double pressure_kPa,
                            double capacitor_pressure_kPa, double capacitor_rate_kPa_per_ms) {
   const ValveFlow in = valve_flow(loop.mitral, loop.filling_pressure_kPa - pressure_kPa);
-  const ValveFlow out = valve_flow(aortic_outlet(loop), pressure_kPa - capacitor_pressure_kPa);
+  const ValveFlow out = valve_flow(outlet(loop.aortic, loop.arteries), pressure_kPa - capacitor_pressure_kPa);
   return {
       .volume = volume_rate_mm3_per_ms - in.flow_mm3_per_ms + out.flow_mm3_per_ms,
       .capacitor = windkessel_residual(loop.arteries, capacitor_pressure_kPa, capacitor_rate_kPa_per_ms,

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "cardiac/circulation/outlet.hpp"
+
 namespace cardiac {
 
 using polyaffine::Matrix;
@@ -23,10 +25,7 @@ CirculationModel::Rates TwoSidedCirculation::rates(const Vector& z, const Vector
     const Windkessel& arteries = side.arteries;
     const int artery = kArteries[k], vein = kVeins[k], behind = kVeins[1 - k];
     const ValveFlow in = valve_flow(side.inlet, z[vein] - p[k]);
-    Valve outlet = side.outlet;
-    outlet.resistance_kPa_ms_per_mm3 += arteries.proximal_resistance_kPa_ms_per_mm3;
-    outlet.leak_kPa_ms_per_mm3 += arteries.proximal_resistance_kPa_ms_per_mm3;
-    const ValveFlow ejected = valve_flow(outlet, p[k] - z[artery]);
+    const ValveFlow ejected = valve_flow(outlet(side.outlet, arteries), p[k] - z[artery]);
     const double conductance = 1 / arteries.peripheral_resistance_kPa_ms_per_mm3;
     const double run_off = conductance * (z[artery] - z[behind]);
 
