@@ -11,6 +11,7 @@
 #include <polyaffine/core/atomic_file.hpp>
 #include <polyaffine/core/error.hpp>
 
+#include "biventricle_mesh.hpp"
 #include "box_mesh.hpp"
 #include "ellipsoid_mesh.hpp"
 #include "progress.hpp"
@@ -48,6 +49,7 @@ void validate(const ValidateOptions& options) {
     context.out = options.out;
     context.mesh_ellipsoid = mesh_truncated_ellipsoid;
     context.mesh_box = mesh_box;
+    context.mesh_biventricle = mesh_biventricle;
     for (const ValidationCase& one : validation_cases()) {
       if (options.name != "all" && options.name != one.name) continue;
       context.progress = [&](const std::string& what, double fraction) {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <cardiac/anatomy/idealised.hpp>
+#include <cardiac/anatomy/idealised_biventricle.hpp>
 #include <polyaffine/mesh/tet_mesh.hpp>
 
 namespace cardiac {
@@ -45,6 +45,7 @@ struct ValidationContext {
   std::function<polyaffine::TetMesh(const TruncatedEllipsoid& shape, double size_mm)> mesh_ellipsoid;
   /// Unstructured tets of the box [0, size], the six faces labelled 1 to 6: x = 0, x = size, y = 0, …
   std::function<polyaffine::TetMesh(const polyaffine::Vec3& size_mm, double edge_mm)> mesh_box;
+  std::function<polyaffine::TetMesh(const IdealisedBiventricle& shape, double size_mm)> mesh_biventricle;
   /// May be called from several threads at once.
   std::function<void(const std::string& what, double fraction)> progress = [](const auto&, double) {};
 };

@@ -82,8 +82,21 @@ struct Model {
     out.unknowns = static_cast<int>(c.size() - std::count(problem.fixed.begin(), problem.fixed.end(), 1));
     out.load_steps = report.steps;
     out.newton_iterations = report.iterations;
-    out.largest_dilatation = wall->pressure(c).cwiseAbs().maxCoeff() / wall->pressure_space()->bulk_modulus;
+    const double rest = wall_volume(Vector::Zero(c.size()));
+    out.wall_volume_change = wall_volume(c) / rest - 1;
     return out;
+  }
+
+  // ∮ x · n da / 3 over the whole boundary; of degree four on quadratic triangles, so that the rule is exact.
+  double wall_volume(const Vector& at) const {
+    std::vector<int> labels = mesh.boundary_labels();
+    std::ranges::sort(labels);
+    labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+    const SurfacePoints boundary = basis.surface_points(mesh, labels, 4);
+    return FieldEnergy(surface_table(basis, boundary, Vec3::Zero()),
+                       Laws{std::make_shared<SignedVolume>(1.0 / 3)})
+        .evaluate({at})
+        .value;
   }
 
   Vec3 deformed(const Vec3& X) const {

@@ -11,7 +11,9 @@ struct LandSolution {
   int tets = 0, unknowns = 0;
   int load_steps = 0, newton_iterations = 0;  ///< of the whole load path
   std::vector<double> values;                 ///< see the functions below
-  double largest_dilatation = 0;              ///< largest |mean det F − 1| of an element
+  /// Volume of the deformed wall over that at rest, minus one, both from the closed surface by the divergence
+  /// theorem.
+  double wall_volume_change = 0;
   double cpu_s = 0;  ///< user and system time of one thread from the mesh to the values
   double wall_s = 0;
 };
