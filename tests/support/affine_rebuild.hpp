@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 
 #include <cardiac/heart/beat_result.hpp>
 #include <polyaffine/kinematics/lagrange.hpp>

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 
 #include <cardiac/report/csv_reader.hpp>
@@ -198,7 +199,7 @@ TEST(Tables, NeverShowWhatIsNotANumber) {
   EXPECT_TRUE(nlohmann::json::parse(summary).at("real_time_factor").is_null());
   for (const std::string& text :
        {strain_table(r), peaks_table(r), affine_table(r), global_strain_table(r), cavity_table(r), summary}) {
-    EXPECT_THAT(text, Not(HasSubstr("nan")));
+    EXPECT_THAT(std::regex_replace(text, std::regex("determinant"), ""), Not(HasSubstr("nan")));
     EXPECT_THAT(text, Not(HasSubstr("NaN")));
     EXPECT_THAT(text, Not(HasSubstr("inf,")));
   }

@@ -79,16 +79,30 @@ TEST(ContourGauge, LongitudinalIsTheArcFromBaseRoundTheApexToBase) {
   expect_layers(g.longitudinal, expected(0), expected(0.5), expected(1), 0.3);
   expect_layers(g.circumferential, 0, 0, 0, 1e-9);
   EXPECT_LT(expected(1), -14);
-  // The rim lies at z = 5, the epicardial apex at −20 mm.
-  EXPECT_NEAR(g.base_excursion_mm, 0.2 * 25, 0.01);
+  // The rim lies at z = 5, the epicardial apex at −20 mm, where the mesh has a vertex within half a
+  // millimetre.
+  EXPECT_NEAR(g.base_excursion_mm, 0.2 * 25, 0.05);
 }
 
+// The wall moves inwards by 1.4 (1 − t) mm: at the middles of the thirds of the cavity's 22 mm, rings of
+// radius r shorten by 1.4 (1 − t)/r.
 TEST(ContourGauge, CircumferentialTellsTheLayersApart) {
-  const auto g = measured([](const Vec3& X) {
-    const double s = 0.8 + 0.2 * testing::analytic_depth(X);
+  const auto inwards = [](double t) { return 1.4 * (1 - t); };
+  const auto g = measured([&](const Vec3& X) {
+    const double s = 1 - inwards(testing::analytic_depth(X)) / std::hypot(X.x(), X.y());
     return Vec3(s * X.x(), s * X.y(), X.z());
   });
-  expect_layers(g.circumferential, -20, -10, 0, 0.3);
+  const auto expected = [&](double t) {
+    double sum = 0;
+    for (const double height : {1.0 / 6, 1.0 / 2, 5.0 / 6}) {
+      const double z = (-17 + 22 * height) / (17 + 3 * t);
+      sum -= 100 * inwards(t) / ((7 + 3 * t) * std::sqrt(1 - z * z)) / 3;
+    }
+    return sum;
+  };
+  EXPECT_LT(expected(0), -20);
+  // Rings of chords; of the coarse mesh one element or two through the wall.
+  expect_layers(g.circumferential, expected(0), expected(0.5), expected(1), 1);
 }
 
 TEST(ContourGauge, ThickeningIsThatOfTheDistanceBetweenTheSurfaces) {
@@ -106,7 +120,7 @@ TEST(ContourGauge, IsAgainstEndDiastole) {
   const auto g = measured([](const Vec3& X) { return Vec3(1.8 * X); }, doubled);
   expect_layers(g.longitudinal, -10, -10, -10, 1e-9);
   expect_layers(g.circumferential, -10, -10, -10, 1e-9);
-  EXPECT_NEAR(g.base_excursion_mm, 0.2 * 25, 0.01);
+  EXPECT_NEAR(g.base_excursion_mm, 0.2 * 25, 0.05);
 }
 
 class RightContours : public ::testing::Test {
