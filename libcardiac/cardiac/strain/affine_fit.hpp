@@ -20,7 +20,7 @@ namespace cardiac {
 ///
 /// A segment is bent: part of its extent along the radial axis is its own curvature, which shortens with the
 /// circumference while the wall thickens. The determinant of A is then not the change of its volume (that is
-/// SegmentStrain::volume_ratio): it lies below it in systole and above it in an inflation, by up to 0.16 in a
+/// SegmentStrain::volume_ratio): it lies below it in systole and above it in an inflation, by up to 0.2 in a
 /// human ventricle.
 class AffineFit {
  public:

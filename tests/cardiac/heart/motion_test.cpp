@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <iostream>
 #include <sstream>
 
 #include <cardiac/anatomy/segments.hpp>
@@ -25,7 +24,7 @@ Points positions(const testing::HeartRun& run, const Vector& c) {
 }
 
 /// The maps of all segments at one output time rebuild the motion of the mesh since end diastole as well as
-/// any affine map, and change its volume as the wall does.
+/// any affine map.
 void expect_affine(const testing::HeartRun& run, std::size_t output) {
   const Anatomy& anatomy = *run.ventricle.anatomy;
   const Instant& instant = run.result.instants.at(output);
@@ -39,10 +38,6 @@ void expect_affine(const testing::HeartRun& run, std::size_t output) {
     EXPECT_LT(errors[s].maps, 1.001 * errors[s].best);
     EXPECT_NEAR(instant.frames[s].misfit, errors[s].best, 1e-9);
     EXPECT_LT(instant.frames[s].misfit, 0.5);
-    std::cout << "DET " << s + 1 << " " << instant.frames[s].A.determinant() << " "
-              << instant.strain[s].volume_ratio << " "
-              << instant.frames[s].A.determinant() - instant.strain[s].volume_ratio << " misfit "
-              << instant.frames[s].misfit << "\n";
   }
 }
 
@@ -156,17 +151,12 @@ TEST(GlobalStrainOfABeat, IsLargestAtTheEndocardium) {
   EXPECT_LT(g.longitudinal.midwall_percent, g.longitudinal.epicardial_percent);
   EXPECT_LT(g.circumferential.endocardial_percent, g.circumferential.midwall_percent);
   EXPECT_LT(g.circumferential.midwall_percent, g.circumferential.epicardial_percent);
-  EXPECT_LT(g.longitudinal.endocardial_percent, g.gls_percent);
+  EXPECT_LT(g.longitudinal.endocardial_percent, g.gls_percent - 3);
+  // Thickness from volume and areas against the mean over the wall of the radial strain.
+  EXPECT_NEAR(g.wall_thickening_percent, g.grs_percent, 3);
   EXPECT_FALSE(run.result.right_strain);
   const GlobalStrain& start = run.result.instants.front().global.at(0);
   EXPECT_NEAR(start.longitudinal.endocardial_percent, 0, 2);
-  std::cout << "GLOBAL " << global_strain_table(run.result).substr(0, 900) << "\n"
-            << g.gls_percent << " " << g.longitudinal.endocardial_percent << " "
-            << g.longitudinal.midwall_percent << " " << g.longitudinal.epicardial_percent << " | "
-            << g.gcs_percent << " " << g.circumferential.endocardial_percent << " "
-            << g.circumferential.midwall_percent << " " << g.circumferential.epicardial_percent << " thick "
-            << g.wall_thickening_percent << " vs grs " << g.grs_percent << " exc " << g.base_excursion_mm
-            << "\n";
 }
 
 }  // namespace
