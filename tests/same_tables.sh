@@ -54,7 +54,7 @@ run_both() {
     XDG_CACHE_HOME="$folder/cache$k" "${programs[k]}" run "$@" --quiet --out "$folder/$name$k" --set output.figures=false \
       --set 'mesh.file="../meshes/land_ellipsoid_coarse.vtu"' >/dev/null || { failed=1; return; }
   done
-  for table in strain.csv strain_peaks.csv affine.csv cavity.csv; do
+  for table in strain.csv strain_peaks.csv affine.csv global_strain.csv cavity.csv; do
     compare "$folder/${name}0/$table" "$folder/${name}1/$table" "$name/$table" || failed=1
   done
 }

@@ -1,8 +1,8 @@
 #include "run_files.hpp"
 
+#include <cardiac/heart/vertex_displacement.hpp>
+#include <cardiac/strain/tet_gauge.hpp>
 #include <polyaffine/core/error.hpp>
-
-#include "vertex_displacement.hpp"
 
 #ifdef CARDIAC_WITH_VTK
 #include <polyaffine/vtk/write.hpp>
@@ -32,16 +32,18 @@ void write_mesh_series(const Ventricle& ventricle, const Protocol& protocol, con
   const Anatomy& anatomy = *ventricle.anatomy;
   const auto map = vertex_displacement(ventricle);
   const Eigen::Index tets = anatomy.mesh.num_tets();
+  const std::size_t ed = key_steps(path, protocol).ed;
+  const TetGauge gauge(anatomy.mesh, *anatomy.coordinates,
+                       anatomy.mesh.points() + map.apply(path.steps[ed].c));
+  Points fibres;
+  if (protocol.fibres) fibres = tet_fibres(anatomy, *protocol.fibres);
+  const std::vector<std::string> lcr{"longitudinal", "circumferential", "radial"};
   polyaffine::WriteFields fields;
-  fields.cell_fields["segment"] = Matrix(1, tets);
-  for (Eigen::Index t = 0; t < tets; ++t) fields.cell_fields["segment"](0, t) = anatomy.segment[t];
-  if (protocol.fibres) fields.cell_fields["fibre"] = tet_fibres(anatomy, *protocol.fibres);
-  if (ventricle.contraction) {
-    fields.cell_fields["activation_ms"] = Matrix(1, tets);
-    for (Eigen::Index t = 0; t < tets; ++t)
-      fields.cell_fields["activation_ms"](0, t) =
-          result.segments[anatomy.segment[t] - 1].activation_ms.value_or(0);
-  }
+  fields.integer_cell_fields["segment"] = anatomy.segment;
+  fields.components = {{"strain_lcr", lcr}, {"segment_strain_lcr", lcr}};
+  for (const SegmentInfo& segment : result.segments) fields.texts["segment_name"].push_back(segment.name);
+  if (ventricle.contraction)
+    fields.point_fields["activation_ms"] = ventricle.contraction->vertex_delay_ms.transpose();
   std::vector<double> times;
   std::vector<std::filesystem::path> files;
   for (std::size_t k = 0; k < path.outputs.size(); ++k) {
@@ -54,8 +56,11 @@ void write_mesh_series(const Ventricle& ventricle, const Protocol& protocol, con
       strain.col(t) << s.longitudinal, s.circumferential, s.radial;
     }
     fields.cell_fields["segment_strain_lcr"] = strain;
+    fields.cell_fields["strain_lcr"] = gauge.strain(fields.points);
+    if (protocol.fibres) fields.cell_fields["fibre"] = gauge.turned(fibres, fields.points);
     files.push_back(out / frame_name(k));
     times.push_back(path.outputs[k].time_ms);
+    fields.values["time_ms"] = times.back();
     polyaffine::write_vtu(files.back(), anatomy.mesh, fields);
   }
   polyaffine::write_pvd(out / "heart.pvd", times, files);

@@ -35,7 +35,8 @@ void add_strain_command(CLI::App& app) {
   command->add_option("RESULT_DIR", options->folder, "Folder that `cardiac run` wrote")->required();
   CLI::Option* frames =
       command->add_flag("--frames", options->frames,
-                        "The 12 affine parameters, rotation and stretches of each segment over time");
+                        "The affine map that fits each segment's motion since end diastole best, over time: "
+                        "12 parameters, rotation, stretches, determinant, misfit (affine.csv)");
   command
       ->add_flag("--peaks", options->peaks,
                  "Peaks of each normal strain, their times, end-systolic values, post-systolic index")

@@ -3,12 +3,11 @@
 #include <Eigen/Geometry>
 
 #include <cardiac/core/units.hpp>
+#include <cardiac/heart/vertex_displacement.hpp>
 #include <cardiac/report/tables.hpp>
 #include <cardiac/report/text.hpp>
 #include <cardiac/report/wall_picture.hpp>
 #include <cardiac/strain/peaks.hpp>
-
-#include "vertex_displacement.hpp"
 
 namespace cardiac::app {
 

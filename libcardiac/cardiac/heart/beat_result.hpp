@@ -16,11 +16,40 @@ struct SegmentStrain {
   double volume_ratio = 1;
 };
 
-/// The affine map of a segment about its control node, x − q = A (X − q) + t, components in the node's local
-/// axes (longitudinal, circumferential, radial); A dimensionless, t in mm.
+/// The affine map of a segment since end diastole (see AffineFit), x − q = A (y − q) + t, y and x being the
+/// end-diastolic and the present position of its material and q the end-diastolic position of its control
+/// node; components in the node's local axes (longitudinal, circumferential, radial). A dimensionless, t in
+/// mm.
 struct SegmentFrame {
   polyaffine::Mat3 A = polyaffine::Mat3::Identity();
   polyaffine::Vec3 t = polyaffine::Vec3::Zero();
+  double misfit = 0;  ///< share of the motion that no affine map holds; NaN without motion
+};
+
+/// A control node at end diastole, mm, and its axes (columns longitudinal, circumferential, radial).
+struct SegmentNode {
+  polyaffine::Vec3 position = polyaffine::Vec3::Zero();
+  polyaffine::Mat3 axes = polyaffine::Mat3::Identity();
+};
+
+/// Strain along contours at three depths, percent.
+struct LayerStrain {
+  double endocardial_percent = 0, midwall_percent = 0, epicardial_percent = 0;
+};
+
+/// Global strain of a ventricle since end diastole: means over its wall (global_strain), and what is measured
+/// along contours (ContourGauge). NaN where it does not apply.
+struct GlobalStrain {
+  double gls_percent = 0, gcs_percent = 0, grs_percent = 0, twist_deg = 0;
+  LayerStrain longitudinal{}, circumferential{};
+  double wall_thickening_percent = 0, base_excursion_mm = 0;
+};
+
+/// One scalar function of the reduced model's frames, with a vector as unknown.
+struct FrameFunction {
+  std::string frame;     ///< name of the frame: of its segment where frames are the segments
+  std::string function;  ///< "1", or a product of the frame's coordinates l, c, t
+  bool local_axes = false;
 };
 
 enum class Phase { filling, isovolumetric_contraction, ejection, isovolumetric_relaxation };
@@ -37,6 +66,8 @@ struct Instant {
   double time_ms = 0;
   std::vector<SegmentStrain> strain;
   std::vector<SegmentFrame> frames;
+  std::vector<GlobalStrain> global;              ///< of BeatResult::ventricles
+  std::vector<polyaffine::Vec3> frame_unknowns;  ///< of BeatResult::frame_functions, mm
 };
 
 struct SegmentInfo {
@@ -52,11 +83,6 @@ struct VentricleSummary {
   double peak_pressure_mmHg = 0, edp_mmHg = 0;
   double ed_time_ms = 0, es_time_ms = 0;
   std::vector<CavitySample> samples;  ///< the last beat
-};
-
-/// Global strain of the left ventricle at end systole, ED reference; percent and degrees.
-struct GlobalStrain {
-  double gls_percent = 0, gcs_percent = 0, grs_percent = 0, twist_deg = 0;
 };
 
 /// What the time integration of the beats took: calls, and the seconds spent in them.
@@ -93,9 +119,12 @@ struct BeatResult {
   SolveCost cost;  ///< zero without a beat
   double wall_setup_s = 0, wall_solve_s = 0, wall_output_s = 0, wall_total_s = 0;
   std::vector<SegmentInfo> segments;
-  std::vector<Instant> instants;  ///< the last beat, time counted from its start
+  std::vector<SegmentNode> nodes;              ///< of the segments
+  std::vector<FrameFunction> frame_functions;  ///< empty unless output.frames asks for their unknowns
+  std::vector<Instant> instants;               ///< the last beat, time counted from its start
   std::vector<VentricleSummary> ventricles;
-  GlobalStrain strain;
+  GlobalStrain strain;                       ///< of the left ventricle at end systole
+  std::optional<GlobalStrain> right_strain;  ///< of the right free wall at the same time
   double min_det_F = 1, max_det_F = 1;
   std::vector<VerificationInstant> verification;
   std::vector<PlanItem> plan;

@@ -4,9 +4,8 @@
 #include <limits>
 
 #include <cardiac/core/units.hpp>
-#include <cardiac/heart/reduced_points.hpp>
-#include <cardiac/strain/affine_parameters.hpp>
-#include <cardiac/strain/segment_strain.hpp>
+#include <cardiac/heart/frame_functions.hpp>
+#include <cardiac/heart/motion.hpp>
 
 namespace cardiac {
 
@@ -99,6 +98,21 @@ KeySteps find_key_steps(const HeartPath& path, const Protocol& protocol, bool ri
   return out;
 }
 
+void add_motion(const Ventricle& ventricle, const std::vector<ControlNode>& nodes, const Protocol& protocol,
+                const HeartPath& path, const KeySteps& key, BeatResult& out) {
+  const Motion motion(ventricle, nodes, out.segments, path.steps[key.ed].c);
+  out.nodes = motion.nodes();
+  if (protocol.output.frames) out.frame_functions = frame_functions(ventricle.discretisation);
+  for (const HeartState& state : path.outputs) {
+    out.instants.push_back(motion.instant(state.time_ms, state.c));
+    for (std::size_t k = 0; k < out.frame_functions.size(); ++k)
+      out.instants.back().frame_unknowns.emplace_back(state.c.segment<3>(3 * static_cast<Eigen::Index>(k)));
+  }
+  const Instant es = motion.instant(path.steps[key.es].time_ms, path.steps[key.es].c);
+  out.strain = es.global.front();
+  if (es.global.size() > 1) out.right_strain = es.global[1];
+}
+
 }  // namespace
 
 KeySteps key_steps(const HeartPath& path, const Protocol& protocol) {
@@ -150,27 +164,7 @@ BeatResult describe_path(const Ventricle& ventricle, const std::vector<ControlNo
   out.ventricles.push_back(summarise(path, key, false, out.has_beat));
   if (ventricle.right_cavity)
     out.ventricles.push_back(summarise(path, right_key_steps(path, protocol), true, out.has_beat));
-  const polyaffine::WallPoints points = strain_points(anatomy, d);
-  const polyaffine::FieldTable table = polyaffine::deformation_table(*d.basis, points);
-  const SegmentGauge gauge(*anatomy.coordinates, points);
-  const polyaffine::DisplacementMap displacement(*d.basis, points.tet, points.barycentric);
-  const auto positions = [&](const Vector& c) { return Points(gauge.positions() + displacement.apply(c)); };
-  const auto gradients = [&](const Vector& c) { return polyaffine::evaluate_field(table, c); };
-  const auto* frames = d.layout.follows_segments ? d.frame_basis.get() : nullptr;
-
-  const Matrix F_ed = gradients(path.steps[key.ed].c);
-  for (const HeartState& state : path.outputs) {
-    Instant instant{state.time_ms, gauge.strain(gradients(state.c), F_ed), {}};
-    instant.frames =
-        frames ? affine_parameters(*frames, nodes, state.c)
-               : fit_affine(nodes, gauge.segment(), gauge.positions(), positions(state.c), gauge.weights());
-    out.instants.push_back(std::move(instant));
-  }
-  std::vector<double> volumes;
-  for (const auto& s : out.segments) volumes.push_back(s.volume_mL);
-  out.strain = global_strain(
-      gauge.strain(gradients(path.steps[key.es].c), F_ed),
-      gauge.rotation_deg(positions(path.steps[key.es].c), positions(path.steps[key.ed].c)), volumes);
+  add_motion(ventricle, nodes, protocol, path, key, out);
   return out;
 }
 

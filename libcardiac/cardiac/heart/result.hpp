@@ -20,9 +20,9 @@ KeySteps right_key_steps(const HeartPath& path, const Protocol& protocol);
 /// segments, otherwise the one it would have then.
 std::vector<ControlNode> segment_nodes(const Anatomy& anatomy, const Protocol& protocol);
 
-/// What a path means in segments, volumes and pressures, with nodes from segment_nodes. The affine maps of
-/// the segments are those of their frames; for full order and for frames that do not belong to the segments,
-/// those that fit the motion of each segment best. Wall times, plan and protocol warnings are the caller's.
+/// What a path means in segments, volumes and pressures, with nodes from segment_nodes. Strains, affine maps
+/// and contours are against end diastole (without a beat: the first state). Wall times, plan and protocol
+/// warnings are the caller's.
 BeatResult describe_path(const Ventricle& ventricle, const std::vector<ControlNode>& nodes,
                          const Protocol& protocol, const HeartPath& path);
 

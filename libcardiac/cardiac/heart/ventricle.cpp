@@ -6,6 +6,7 @@
 #include <cardiac/activation/activation.hpp>
 #include <cardiac/anatomy/right_ventricle.hpp>
 #include <cardiac/heart/trained_rule.hpp>
+#include <cardiac/heart/vertex_displacement.hpp>
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/energy/springs.hpp>
 #include <polyaffine/material/signed_volume.hpp>
@@ -46,20 +47,30 @@ std::vector<ActivationSite> sites(const Anatomy& anatomy, const protocol::Activa
   return out;
 }
 
-// Activation time of each integration point, ms.
-Vector activation(const Anatomy& anatomy, const Protocol& protocol, const polyaffine::WallPoints& points,
-                  BuildCount& built) {
-  ++built["activation"];
+// Activation time of each vertex, ms, without the delays of regions.
+Vector vertex_activation(const Anatomy& anatomy, const Protocol& protocol) {
   const auto& a = *protocol.activation;
+  if (a.mode == protocol::ActivationMode::uniform)
+    return Vector::Constant(anatomy.mesh.num_points(), a.onset_ms);
+  return activation_times(anatomy.mesh, tet_fibres(anatomy, *protocol.fibres),
+                          {a.conduction_along_fibre_mm_per_ms, a.conduction_across_fibre_mm_per_ms},
+                          sites(anatomy, a));
+}
+
+// Of each integration point.
+Vector at_points(const Anatomy& anatomy, const Vector& at_vertices, const polyaffine::WallPoints& points) {
   const auto n = static_cast<Eigen::Index>(points.tet.size());
-  if (a.mode == protocol::ActivationMode::uniform) return Vector::Constant(n, a.onset_ms);
-  const Vector at_vertices = activation_times(
-      anatomy.mesh, tet_fibres(anatomy, *protocol.fibres),
-      {a.conduction_along_fibre_mm_per_ms, a.conduction_across_fibre_mm_per_ms}, sites(anatomy, a));
   Vector out(n);
   for (Eigen::Index q = 0; q < n; ++q)
     out[q] = points.barycentric.col(q).dot(at_vertices(anatomy.mesh.tets().col(points.tet[q])));
   return out;
+}
+
+// The delays of regions at the vertices, ms.
+Vector vertex_region_delay(const Anatomy& anatomy, const Protocol& protocol) {
+  const polyaffine::WallPoints vertices = vertex_points(anatomy.mesh);
+  const RegionFactors factors = region_factors(anatomy, protocol, vertices);
+  return Eigen::Map<const Vector>(factors.delay_ms.data(), anatomy.mesh.num_points());
 }
 
 std::shared_ptr<const ContractionField> build_contraction(const Anatomy& anatomy, const Protocol& protocol,
@@ -75,11 +86,14 @@ std::shared_ptr<const ContractionField> build_contraction(const Anatomy& anatomy
                                     c.switch_width_ms};
   const double period =
       protocol.circulation ? 60000 / protocol.time.heart_rate_bpm : protocol.time.duration_ms;
-  ContractionField out{TensionCurve(parameters, period), activation(anatomy, protocol, points, built),
-                       Vector::Ones(static_cast<Eigen::Index>(points.tet.size()))};
+  ++built["activation"];
+  const Vector at_vertices = vertex_activation(anatomy, protocol);
+  ContractionField out{TensionCurve(parameters, period), at_points(anatomy, at_vertices, points),
+                       Vector::Ones(static_cast<Eigen::Index>(points.tet.size())), at_vertices};
   if (!factors.tension.empty()) {
     out.scale = Eigen::Map<const Vector>(factors.tension.data(), out.scale.size());
     out.delay_ms += Eigen::Map<const Vector>(factors.delay_ms.data(), out.scale.size());
+    out.vertex_delay_ms += vertex_region_delay(anatomy, protocol);
   }
   return std::make_shared<ContractionField>(std::move(out));
 }

@@ -12,8 +12,9 @@ namespace cardiac {
 /// When and how strongly each integration point contracts.
 struct ContractionField {
   TensionCurve curve;
-  polyaffine::Vector delay_ms;  ///< activation time of each point
-  polyaffine::Vector scale;     ///< factor on the tension of the curve
+  polyaffine::Vector delay_ms;         ///< activation time of each point
+  polyaffine::Vector scale;            ///< factor on the tension of the curve
+  polyaffine::Vector vertex_delay_ms;  ///< activation time of each vertex of the mesh
 
   /// Active tension of all points at a time, kPa.
   polyaffine::Vector tension(double time_ms) const;

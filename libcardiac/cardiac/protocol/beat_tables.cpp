@@ -248,7 +248,11 @@ Table output_table() {
       .key("tables", &Output::tables, {.meaning = "strain, affine and cavity tables (.csv)"})
       .key("figures", &Output::figures,
            {.meaning = "bull's-eyes, strain curves, pressure–volume loop, report"})
-      .key("mesh_series", &Output::mesh_series, {.meaning = "deformed meshes (.vtu, .pvd)"});
+      .key("mesh_series", &Output::mesh_series, {.meaning = "deformed meshes (.vtu, .pvd)"})
+      .key("frames", &Output::frames,
+           {.meaning = "unknowns of the control frames with the functions they belong to (frames.csv)",
+            .used_with = "reduction.method",
+            .used_values = {"polyaffine"}});
   return table.build();
 }
 

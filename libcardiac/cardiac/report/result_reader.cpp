@@ -4,6 +4,7 @@
 #include <array>
 
 #include <cardiac/report/csv_reader.hpp>
+#include <cardiac/report/global_columns.hpp>
 #include <cardiac/report/summary_reader.hpp>
 #include <cardiac/report/tables.hpp>
 #include <polyaffine/core/error.hpp>
@@ -72,7 +73,26 @@ void read_frames(const fs::path& file, BeatResult& result) {
       for (int j = 0; j < 3; ++j)
         frame.A(i, j) = table.number(row, table.column("a_" + number + std::to_string(j + 1)));
     }
+    frame.misfit = table.number(row, table.column("misfit"));
   });
+}
+
+void read_global(const fs::path& file, BeatResult& result) {
+  const CsvTable table(file);
+  const size_t time = table.column("time_ms"), ventricle = table.column("ventricle");
+  std::vector<size_t> columns;
+  for (const GlobalColumn& quantity : kGlobalStrain) columns.push_back(table.column(quantity.column));
+  const size_t count = result.ventricles.size();
+  for (size_t row = 0; row < table.rows(); ++row) {
+    if (count == 0 || table.text(row, ventricle) != result.ventricles[row % count].name)
+      table.fail(row, ventricle, "the ventricles of summary.json in their order");
+    const size_t index = row / count;
+    if (index >= result.instants.size() || result.instants[index].time_ms != table.number(row, time))
+      table.fail(row, time, "a time that strain.csv has at this place");
+    GlobalStrain& strain = result.instants[index].global.emplace_back();
+    for (size_t k = 0; k < columns.size(); ++k)
+      kGlobalStrain[k].value(strain) = table.number(row, columns[k]);
+  }
 }
 
 void read_cavities(const fs::path& file, BeatResult& result) {
@@ -103,6 +123,7 @@ StoredResult read_result(const fs::path& folder) {
   StoredResult stored = parse_summary(read_text(folder / "summary.json"), folder / "summary.json");
   read_strain(folder / "strain.csv", stored.result);
   read_frames(folder / "affine.csv", stored.result);
+  read_global(folder / "global_strain.csv", stored.result);
   read_cavities(folder / "cavity.csv", stored.result);
   return stored;
 }

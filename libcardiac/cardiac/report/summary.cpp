@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include <cardiac/report/global_columns.hpp>
 #include <cardiac/report/text.hpp>
 #include <polyaffine/core/error.hpp>
 
@@ -49,6 +50,12 @@ Json timing_of(const BeatResult& r) {
           {"factorisation_s", number(c.factorisation_s)},
           {"linear_solve_s", number(c.linear_solve_s)},
           {"rest_s", number(r.wall_solve_s - known)}};
+}
+
+Json global_json(const GlobalStrain& strain) {
+  Json json;
+  for (const GlobalColumn& quantity : kGlobalStrain) json[quantity.key] = number(quantity.value(strain));
+  return json;
 }
 
 Json protocol_of(const RunInfo& info) {
@@ -106,13 +113,10 @@ std::string summary_text(const BeatResult& r, const RunInfo& info) {
                {"timing", timing_of(r)},
                {"real_time_factor", number(r.wall_solve_s / r.simulated_time_s)},
                {"ventricles", ventricles},
-               {"strain",
-                {{"gls_percent", number(r.strain.gls_percent)},
-                 {"gcs_percent", number(r.strain.gcs_percent)},
-                 {"grs_percent", number(r.strain.grs_percent)},
-                 {"twist_deg", number(r.strain.twist_deg)}}},
+               {"strain", global_json(r.strain)},
                {"min_det_F", number(r.min_det_F)},
                {"max_det_F", number(r.max_det_F)}};
+  if (r.right_strain) json["right_strain"] = global_json(*r.right_strain);
   json.update(lists_of(r));
   json["protocol"] = protocol_of(info);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include <cardiac/report/global_columns.hpp>
 #include <polyaffine/core/error.hpp>
 
 namespace cardiac {
@@ -25,6 +26,7 @@ class Reader {
     if (!json_.contains(key)) throw InputError(file_ + ": the key '" + full + "' is missing");
     return {json_.at(key), full, file_};
   }
+  bool has(const std::string& key) const { return json_.is_object() && json_.contains(key); }
   std::vector<Reader> items() const {
     expect(json_.is_array(), "a list");
     std::vector<Reader> list;
@@ -107,6 +109,10 @@ void read_timing(const Reader& reader, SolveCost& c) {
   reader.at("linear_solve_s") >> c.linear_solve_s;
 }
 
+void read_global(const Reader& reader, GlobalStrain& strain) {
+  for (const GlobalColumn& quantity : kGlobalStrain) reader.at(quantity.key) >> quantity.value(strain);
+}
+
 void read_lists(const Reader& reader, BeatResult& r) {
   for (const Reader& json : reader.at("verification").items()) {
     VerificationInstant& v = r.verification.emplace_back();
@@ -167,10 +173,8 @@ StoredResult parse_summary(const std::string& text, const std::filesystem::path&
   reader.at("wall_time_s").at("total") >> r.wall_total_s;
   if (r.has_beat) read_timing(reader.at("timing"), r.cost);
   read_ventricles(reader.at("ventricles"), r);
-  reader.at("strain").at("gls_percent") >> r.strain.gls_percent;
-  reader.at("strain").at("gcs_percent") >> r.strain.gcs_percent;
-  reader.at("strain").at("grs_percent") >> r.strain.grs_percent;
-  reader.at("strain").at("twist_deg") >> r.strain.twist_deg;
+  read_global(reader.at("strain"), r.strain);
+  if (reader.has("right_strain")) read_global(reader.at("right_strain"), r.right_strain.emplace());
   reader.at("min_det_F") >> r.min_det_F;
   reader.at("max_det_F") >> r.max_det_F;
   read_lists(reader, r);

@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <limits>
 
+#include <cardiac/report/global_columns.hpp>
 #include <cardiac/report/summary.hpp>
 #include <cardiac/report/text.hpp>
 #include <cardiac/strain/peaks.hpp>
@@ -106,14 +107,58 @@ std::string peaks_table(const BeatResult& result) {
 std::string affine_table(const BeatResult& result) {
   std::string text =
       "time_ms,segment,name,a_11,a_12,a_13,a_21,a_22,a_23,a_31,a_32,a_33,t_1_mm,t_2_mm,t_3_mm,"
-      "rotation_deg,stretch_1,stretch_2,stretch_3\n";
+      "rotation_deg,stretch_1,stretch_2,stretch_3,determinant,misfit\n";
   for (const Instant& instant : as_written(result.instants)) {
     for (size_t i = 0; i < instant.frames.size(); ++i) {
-      const auto& [A, t] = instant.frames[i];
+      const auto& [A, t, misfit] = instant.frames[i];
       const Polar p = polar(A);
       text += number_text(instant.time_ms) + "," + segment_fields(result.segments.at(i));
       for (int row = 0; row < 3; ++row) append(text, {A(row, 0), A(row, 1), A(row, 2)});
-      append(text, {t(0), t(1), t(2), p.rotation_deg, p.stretch(0), p.stretch(1), p.stretch(2)});
+      append(text, {t(0), t(1), t(2), p.rotation_deg, p.stretch(0), p.stretch(1), p.stretch(2),
+                    A.determinant(), misfit});
+      text += '\n';
+    }
+  }
+  return text;
+}
+
+std::string nodes_table(const BeatResult& result) {
+  std::string text = "segment,name,x_mm,y_mm,z_mm";
+  for (const char axis : {'l', 'c', 'r'})
+    for (const char component : {'x', 'y', 'z'}) text += std::string(",") + axis + "_" + component;
+  text += '\n';
+  for (size_t i = 0; i < result.nodes.size(); ++i) {
+    const auto& [q, axes] = result.nodes[i];
+    text += segment_fields(result.segments.at(i));
+    append(text, {q(0), q(1), q(2)});
+    for (int k = 0; k < 3; ++k) append(text, {axes(0, k), axes(1, k), axes(2, k)});
+    text += '\n';
+  }
+  return text;
+}
+
+std::string global_strain_table(const BeatResult& result) {
+  std::string text = "time_ms,ventricle";
+  for (const auto& quantity : kGlobalStrain) text += "," + quantity.column;
+  text += '\n';
+  for (const Instant& instant : result.instants) {
+    for (size_t i = 0; i < instant.global.size(); ++i) {
+      text += number_text(instant.time_ms) + "," + quoted(result.ventricles.at(i).name);
+      for (const auto& quantity : kGlobalStrain) append(text, {quantity.value(instant.global[i])});
+      text += '\n';
+    }
+  }
+  return text;
+}
+
+std::string frames_table(const BeatResult& result) {
+  std::string text = "time_ms,frame,axes,function,c_1_mm,c_2_mm,c_3_mm\n";
+  for (const Instant& instant : result.instants) {
+    for (size_t k = 0; k < instant.frame_unknowns.size(); ++k) {
+      const FrameFunction& f = result.frame_functions.at(k);
+      text += number_text(instant.time_ms) + "," + quoted(f.frame) +
+              (f.local_axes ? ",local," : ",cartesian,") + f.function;
+      for (const double c : instant.frame_unknowns[k]) text += "," + exact_text(c);
       text += '\n';
     }
   }
@@ -162,6 +207,9 @@ void write_tables(const BeatResult& result, const RunInfo& info, const std::file
   polyaffine::write_atomically(out / "strain.csv", strain_table(result));
   polyaffine::write_atomically(out / "strain_peaks.csv", peaks_table(result));
   polyaffine::write_atomically(out / "affine.csv", affine_table(result));
+  polyaffine::write_atomically(out / "control_nodes.csv", nodes_table(result));
+  polyaffine::write_atomically(out / "global_strain.csv", global_strain_table(result));
+  if (!result.frame_functions.empty()) polyaffine::write_atomically(out / "frames.csv", frames_table(result));
   polyaffine::write_atomically(out / "cavity.csv", cavity_table(result));
   polyaffine::write_atomically(out / "summary.json", summary);
 }

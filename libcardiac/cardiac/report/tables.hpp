@@ -15,10 +15,25 @@ namespace cardiac {
 std::string strain_table(const BeatResult& result);
 /// strain_peaks.csv: a row per segment; definitions at strain_peaks().
 std::string peaks_table(const BeatResult& result);
-/// affine.csv: a row per output time and segment with a frame: A (local axes), t in mm, and of the polar
-/// decomposition A = R U the rotation angle of R and the stretches, largest first; in a frame that is turned
-/// inside out the smallest stretch is negative.
+/// affine.csv: a row per output time and segment: the affine map that comes closest to the segment's motion
+/// since end diastole (without a beat: since the mesh), the same reference as strain.csv,
+///   x = q + R (A Rᵀ (y − q) + t)
+/// from the end-diastolic position y of its material to the present one x, with the node's end-diastolic
+/// position q and its axes R from control_nodes.csv (see AffineFit). A (local axes), t in mm; of the polar
+/// decomposition A = R U the rotation angle of R and the stretches, largest first (the smallest negative in a
+/// map that turns the segment inside out); the determinant of A; and the misfit, the share of the motion that
+/// no affine map holds (empty where nothing has moved).
 std::string affine_table(const BeatResult& result);
+/// control_nodes.csv: a row per segment: end-diastolic position of its control node (mm) and its axes l
+/// (longitudinal), c (circumferential) and r (radial) in the coordinates of the mesh.
+std::string nodes_table(const BeatResult& result);
+/// global_strain.csv: a row per output time and ventricle: means over its wall (global_strain), then what is
+/// measured along contours, definitions at ContourGauge; percent, degrees, mm, since end diastole.
+std::string global_strain_table(const BeatResult& result);
+/// frames.csv: a row per output time and function of the reduced model, definitions at frame_functions(): the
+/// frame it belongs to, the axes of its coefficient, its function of the frame's coordinates and the
+/// coefficient (mm), with all digits. Against the mesh, not end diastole.
+std::string frames_table(const BeatResult& result);
 /// cavity.csv: a row per sample of each ventricle.
 std::string cavity_table(const BeatResult& result);
 
@@ -31,7 +46,8 @@ struct CardiacTimes {
 };
 CardiacTimes cardiac_times(const BeatResult& result);
 
-/// Writes strain.csv, strain_peaks.csv, affine.csv, cavity.csv and summary.json into the folder `out` (made
+/// Writes strain.csv, strain_peaks.csv, affine.csv, control_nodes.csv, global_strain.csv, cavity.csv,
+/// summary.json and, where the result has the unknowns of the frames, frames.csv into the folder `out` (made
 /// where missing), each file whole or not at all. Errors as of polyaffine::write_atomically.
 void write_tables(const BeatResult& result, const RunInfo& info, const std::filesystem::path& out);
 

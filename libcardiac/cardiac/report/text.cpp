@@ -54,6 +54,12 @@ std::string number_text(double value) {
   return formatted(value == 0 ? 0.0 : value, std::chars_format::general, 9);
 }
 
+std::string exact_text(double value) {
+  if (!std::isfinite(value)) return "";
+  std::array<char, 40> buffer{};
+  return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr};
+}
+
 double rounded_for_files(double value) {
   const std::string text = number_text(value);
   std::from_chars(text.data(), text.data() + text.size(), value);

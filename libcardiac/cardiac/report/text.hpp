@@ -9,6 +9,10 @@ namespace cardiac {
 /// not finite.
 std::string number_text(double value);
 
+/// The shortest text that reads back as the same number, for what is computed with; "" where it is not
+/// finite.
+std::string exact_text(double value);
+
 /// `value` rounded to the 9 significant digits that number_text shows.
 double rounded_for_files(double value);
 

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <cmath>
+#include <limits>
 
 #include <cardiac/anatomy/segments.hpp>
 #include <cardiac/fibres/helix.hpp>
@@ -76,15 +77,30 @@ std::vector<double> SegmentGauge::rotation_deg(const Points& x, const Points& x_
   return sum;
 }
 
-GlobalStrain global_strain(const std::vector<SegmentStrain>& strain, const std::vector<double>& rotation_deg,
-                           const std::vector<double>& volumes) {
+namespace {
+
+// Means of the segments from number first + 1 to last.
+GlobalStrain mean_strain(const std::vector<SegmentStrain>& strain, const std::vector<double>& volumes,
+                         std::size_t first, std::size_t last) {
   GlobalStrain out;
-  double total = 0, apical = 0, apical_volume = 0, basal = 0, basal_volume = 0;
-  for (std::size_t k = 0; k < kAhaSegments; ++k) {
+  double total = 0;
+  for (std::size_t k = first; k < last; ++k) {
     total += volumes[k];
     out.gls_percent += 100 * volumes[k] * strain[k].longitudinal;
     out.gcs_percent += 100 * volumes[k] * strain[k].circumferential;
     out.grs_percent += 100 * volumes[k] * strain[k].radial;
+  }
+  for (double* mean : {&out.gls_percent, &out.gcs_percent, &out.grs_percent}) *mean /= total;
+  return out;
+}
+
+}  // namespace
+
+GlobalStrain global_strain(const std::vector<SegmentStrain>& strain, const std::vector<double>& rotation_deg,
+                           const std::vector<double>& volumes) {
+  GlobalStrain out = mean_strain(strain, volumes, 0, kAhaSegments);
+  double apical = 0, apical_volume = 0, basal = 0, basal_volume = 0;
+  for (std::size_t k = 0; k < kAhaSegments; ++k) {
     const int ring = aha_ring(static_cast<int>(k) + 1);
     if (ring == 1) {
       apical += volumes[k] * rotation_deg[k];
@@ -94,10 +110,14 @@ GlobalStrain global_strain(const std::vector<SegmentStrain>& strain, const std::
       basal_volume += volumes[k];
     }
   }
-  out.gls_percent /= total;
-  out.gcs_percent /= total;
-  out.grs_percent /= total;
   out.twist_deg = apical / apical_volume - basal / basal_volume;
+  return out;
+}
+
+GlobalStrain right_global_strain(const std::vector<SegmentStrain>& strain,
+                                 const std::vector<double>& volumes) {
+  GlobalStrain out = mean_strain(strain, volumes, kAhaSegments, kBothSegments);
+  out.twist_deg = std::numeric_limits<double>::quiet_NaN();
   return out;
 }
 

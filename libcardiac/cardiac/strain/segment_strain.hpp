@@ -38,11 +38,15 @@ class SegmentGauge {
   std::vector<polyaffine::Mat3> axes_;
 };
 
-/// Global strain of the left ventricle (segments 1–17) at end systole: GLS, GCS, GRS are the means of the
+/// Means over the wall of the left ventricle (segments 1–17): GLS, GCS, GRS are the means of the
 /// segments' strains weighted by volume, in percent; twist is the rotation of the apical segments (13–16)
 /// minus that of the basal ones (1–6), degrees, positive when the apex turns counter-clockwise seen from the
 /// apex against the base, as it does in a healthy heart.
 GlobalStrain global_strain(const std::vector<SegmentStrain>& strain, const std::vector<double>& rotation_deg,
                            const std::vector<double>& segment_volumes);
+
+/// The same means over the right free wall (segments 18–29), without twist (NaN).
+GlobalStrain right_global_strain(const std::vector<SegmentStrain>& strain,
+                                 const std::vector<double>& segment_volumes);
 
 }  // namespace cardiac

@@ -3,10 +3,12 @@
 #include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
 #include <vtkIntArray.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
@@ -55,6 +57,37 @@ vtkSmartPointer<vtkIntArray> int_array(const std::string& name, const std::vecto
   array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
   std::copy(values.begin(), values.end(), array->GetPointer(0));
   return array;
+}
+
+void name_components(const path& file, const WriteFields& fields, vtkDataSetAttributes& data) {
+  for (const auto& [name, components] : fields.components) {
+    vtkDataArray* array = data.GetArray(name.c_str());
+    if (array == nullptr) continue;
+    if (array->GetNumberOfComponents() != static_cast<int>(components.size()))
+      throw InputError(file.string() + ": field \"" + name + "\": found " +
+                       std::to_string(components.size()) + " names of components, expected " +
+                       std::to_string(array->GetNumberOfComponents()));
+    for (int k = 0; k < array->GetNumberOfComponents(); ++k)
+      array->SetComponentName(k, components[k].c_str());
+  }
+}
+
+void add_field_data(const WriteFields& fields, vtkFieldData& data) {
+  for (const auto& [name, texts] : fields.texts) {
+    vtkNew<vtkStringArray> array;
+    array->SetName(name.c_str());
+    for (const std::string& text : texts) array->InsertNextValue(text);
+    data.AddArray(array);
+  }
+  for (const auto& [name, value] : fields.values)
+    data.AddArray(double_array(name, Matrix::Constant(1, 1, value)));
+}
+
+// Of a cell field: its name is not one that the labels of the mesh have.
+void check_free(const path& file, const std::string& name) {
+  if (name == "surface" || name == "region")
+    throw InputError(file.string() + ": cell field \"" + name +
+                     "\": the name is reserved for the labels of the mesh");
 }
 
 /// Indices of the boundary triangles that carry a label.
@@ -109,15 +142,23 @@ void write_vtu(const path& file, const TetMesh& mesh, const WriteFields& fields)
   }
   for (const auto& [name, field] : fields.cell_fields) {
     check_width(file, name, field, mesh.num_tets(), "tets");
-    if (name == "surface" || name == "region")
-      throw InputError(file.string() + ": cell field \"" + name +
-                       "\": the name is reserved for the labels of the mesh");
+    check_free(file, name);
     Matrix all(field.rows(), num_cells);
     all.leftCols(mesh.num_tets()) = field;
     for (std::size_t i = 0; i < faces.size(); ++i)
       all.col(mesh.num_tets() + static_cast<Eigen::Index>(i)) = field.col(mesh.boundary_tets()[faces[i]]);
     grid->GetCellData()->AddArray(double_array(name, all));
   }
+  for (const auto& [name, field] : fields.integer_cell_fields) {
+    check_width(file, name, Matrix(1, field.size()), mesh.num_tets(), "tets");
+    check_free(file, name);
+    std::vector<int> all = field;
+    for (const int f : faces) all.push_back(field[mesh.boundary_tets()[f]]);
+    grid->GetCellData()->AddArray(int_array(name, all));
+  }
+  name_components(file, fields, *grid->GetPointData());
+  name_components(file, fields, *grid->GetCellData());
+  add_field_data(fields, *grid->GetFieldData());
 
   const MessageTrap trap;
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
@@ -143,7 +184,8 @@ void write_pvd(const path& file, const std::vector<double>& times_ms, const std:
   const path folder = file.has_parent_path() ? file.parent_path() : path(".");
   std::ostringstream out;
   out.precision(15);
-  out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
+  out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n"
+         "  <!-- timestep: time in ms -->\n  <Collection>\n";
   for (std::size_t i = 0; i < files.size(); ++i)
     out << "    <DataSet timestep=\"" << times_ms[i] << "\" part=\"0\" file=\""
         << (files[i].is_relative() && !files[i].has_parent_path()

@@ -15,6 +15,11 @@ struct WriteFields {
   std::map<std::string, Matrix>
       cell_fields{};  ///< components × tets; a boundary triangle shows its tet's value
   Points points{};    ///< deformed positions (mm) instead of the mesh's, if not empty
+  std::map<std::string, std::vector<int>> integer_cell_fields{};  ///< a number a tet
+  /// Names of the components of a field (those above), by the field's name.
+  std::map<std::string, std::vector<std::string>> components{};
+  std::map<std::string, std::vector<std::string>> texts{};  ///< field data: lists of texts
+  std::map<std::string, double> values{};                   ///< field data: single numbers
 };
 
 /// Writes a .vtu file: tets, then the labelled boundary triangles, with the integer cell arrays "surface"
@@ -22,11 +27,12 @@ struct WriteFields {
 ///
 /// Coordinates are mm, data is binary, zlib-compressed. The file is written under a temporary name and
 /// renamed when whole. Throws InputError when the name does not end in .vtu, its folder does not exist, or a
-/// field does not fit the mesh; ComputationError when writing fails.
+/// field does not fit the mesh or has another number of components than names; ComputationError when writing
+/// fails.
 void write_vtu(const std::filesystem::path& path, const TetMesh& mesh, const WriteFields& fields = {});
 
-/// Writes a ParaView collection that gives each file of a series its time in ms. Files are named relative to
-/// the collection's folder; the same errors as write_vtu.
+/// Writes a ParaView collection that gives each file of a series its time in ms (the unit is said in a
+/// comment of the file). Files are named relative to the collection's folder; the same errors as write_vtu.
 void write_pvd(const std::filesystem::path& path, const std::vector<double>& times_ms,
                const std::vector<std::filesystem::path>& files);
 

@@ -6,7 +6,9 @@
 #include <cardiac/bench/errors.hpp>
 #include <cardiac/core/units.hpp>
 #include <cardiac/heart/beat_system.hpp>
+#include <cardiac/heart/vertex_displacement.hpp>
 
+#include "support/affine_rebuild.hpp"
 #include "support/heart_run.hpp"
 #include "support/random_vector.hpp"
 
@@ -54,6 +56,26 @@ TEST(BiventricleHeart, PressuresFillBothCavitiesAndStrainAllSegments) {
       EXPECT_GT(e.circumferential, 0) << aha_name(s);
     }
   }
+  // Filling lengthens the contours of both; of the right one there is the free wall.
+  const auto& global = run.result.instants.back().global;
+  ASSERT_EQ(global.size(), 2U);
+  for (const GlobalStrain& g : global) {
+    EXPECT_GT(g.longitudinal.endocardial_percent, 1);
+    EXPECT_GT(g.longitudinal.endocardial_percent, g.longitudinal.epicardial_percent);
+    EXPECT_LT(g.wall_thickening_percent, -5);
+  }
+  EXPECT_TRUE(std::isnan(global[1].twist_deg));
+  EXPECT_TRUE(std::isnan(global[1].circumferential.midwall_percent));
+  ASSERT_TRUE(run.result.right_strain);
+  EXPECT_EQ(run.result.right_strain->longitudinal.endocardial_percent,
+            global[1].longitudinal.endocardial_percent);
+  const auto vertices = vertex_displacement(run.ventricle);
+  const Anatomy& anatomy = *run.ventricle.anatomy;
+  for (const testing::RebuildErrors& errors :
+       testing::rebuild_errors(anatomy.mesh, anatomy.segment, anatomy.mesh.points(),
+                               anatomy.mesh.points() + vertices.apply(filled.c), run.result.nodes,
+                               run.result.instants.back().frames))
+    EXPECT_LT(errors.maps, 1.001 * errors.best);
   // More pressure on the right alone pushes the septum to the left.
   p.cavities = {10, 9};
   const testing::HeartRun more(p, CoarseBiventricle::get().anatomy);

@@ -23,7 +23,8 @@ TEST_P(ResultFuzz, IsReadOrRefused) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, ResultFuzz,
-                         ::testing::Values("summary.json", "strain.csv", "affine.csv", "cavity.csv"),
+                         ::testing::Values("summary.json", "strain.csv", "affine.csv", "global_strain.csv",
+                                           "cavity.csv"),
                          [](const auto& file) { return std::filesystem::path(file.param).stem().string(); });
 
 }  // namespace

@@ -52,6 +52,8 @@ TEST_F(ResultReader, GivesBackWhatWasWritten) {
   r.verification = {{"ED", 0, 0.8, 0.4, 0.012, 12.3}};
   r.segments[3].name = "a \"b\", c";
   r.segments[4].activation_ms.reset();
+  r.instants[5].frames[6].misfit = std::numeric_limits<double>::quiet_NaN();
+  r.right_strain.emplace().longitudinal.epicardial_percent = -17;
   r.instants[5].strain[6].radial = std::numeric_limits<double>::quiet_NaN();
   write(r);
   const auto [result, info] = read_result(folder());
@@ -60,6 +62,8 @@ TEST_F(ResultReader, GivesBackWhatWasWritten) {
   EXPECT_EQ(cavity_table(result), cavity_table(r));
   EXPECT_EQ(peaks_table(result), peaks_table(r));
   EXPECT_EQ(affine_table(result), affine_table(r));
+  EXPECT_EQ(global_strain_table(result), global_strain_table(r));
+  EXPECT_EQ(result.right_strain.value().longitudinal.epicardial_percent, -17);
   ASSERT_EQ(result.instants.size(), r.instants.size());
   EXPECT_EQ(result.stop_reason, r.stop_reason);
   EXPECT_FALSE(result.segments[4].activation_ms.has_value());
@@ -129,6 +133,14 @@ TEST_F(ResultReader, NamesAMissingSegment) {
 TEST_F(ResultReader, NamesTablesThatDoNotBelongTogether) {
   EXPECT_THAT(message_after("affine.csv", "\n0,1,basal anterior", "\n1,1,basal anterior"),
               HasSubstr("affine.csv:2, column 'time_ms': found '1', expected a time that strain.csv has"));
+}
+
+TEST_F(ResultReader, NamesABadGlobalStrain) {
+  EXPECT_THAT(
+      message_after("global_strain.csv", "\n10,lv,", "\n11,lv,"),
+      HasSubstr("global_strain.csv:3, column 'time_ms': found '11', expected a time that strain.csv"));
+  EXPECT_THAT(message_after("global_strain.csv", "\n0,lv,", "\n0,rv,"),
+              HasSubstr("global_strain.csv:2, column 'ventricle': found 'rv', expected the ventricles"));
 }
 
 TEST_F(ResultReader, NamesKeysOfABadSummary) {

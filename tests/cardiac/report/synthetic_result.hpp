@@ -48,7 +48,8 @@ inline BeatResult synthetic_beat(bool infarct = false) {
             .linear_solve_s = 0.2};
   r.wall_setup_s = 1.254, r.wall_solve_s = 3.127, r.wall_output_s = 0.412, r.wall_total_s = 4.793;
   r.min_det_F = 0.93, r.max_det_F = 1.06;
-  r.strain = {-18.42, -21.3, 41.7, 12.6};
+  r.strain = {-18.42, -21.3, 41.7, 12.6, {-21.1, -18.6, -15.2}, {-30.3, -21.9, -12.4}, 38.5, 14.1};
+  r.nodes.resize(17);
   for (int i = 0; i < 17; ++i)
     r.segments.push_back({i + 1, names[i], 5 + 0.37 * (i % 7), 18.0 + 2.3 * (i % 9)});
   for (double t = 0; t <= kBeat; t += 10) {
@@ -71,7 +72,17 @@ inline BeatResult synthetic_beat(bool infarct = false) {
       frame.A = Eigen::AngleAxisd(0.2 * g, polyaffine::Vec3::UnitZ()).toRotationMatrix() *
                 polyaffine::Vec3(1 + e.longitudinal, 1 + e.circumferential, 1 + e.radial).asDiagonal();
       frame.t = {-9 * g, 0.5 * g, -3 * g};
+      frame.misfit = 0.1 + 0.002 * s;
     }
+    const double shortening = -instant.strain.front().circumferential;
+    instant.global.push_back({-90 * shortening,
+                              -100 * shortening,
+                              200 * shortening,
+                              60 * shortening,
+                              {-110 * shortening, -95 * shortening, -80 * shortening},
+                              {-150 * shortening, -105 * shortening, -60 * shortening},
+                              190 * shortening,
+                              70 * shortening});
   }
   VentricleSummary lv{"lv", 121.4, 50.2, 71.2, 58.65, 121.8, 8.3, 0, kEs, {}};
   for (double t = 0; t <= kBeat; t += 5) {

@@ -1,6 +1,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkStringArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridReader.h>
 
 #include <fstream>
 #include <polyaffine/core/error.hpp>
@@ -105,6 +113,32 @@ TEST_F(Vtu, RoundTripKeepsEverythingExactly) {
   EXPECT_EQ(back.point_fields, fields.point_fields);
   EXPECT_EQ(back.cell_fields, fields.cell_fields);
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 1) << "a temporary file is left";
+}
+
+TEST_F(Vtu, ComponentsAndTextsAreNamed) {
+  const TetMesh mesh = labelled_cube();
+  WriteFields fields;
+  fields.cell_fields["strain"] = Matrix::Random(2, mesh.num_tets());
+  fields.components = {{"strain", {"along", "across"}}};
+  fields.integer_cell_fields["part"].assign(mesh.num_tets(), 7);
+  fields.texts["names"] = {"one", "two, with \"quotes\""};
+  fields.values["time_ms"] = 12.5;
+  write_vtu(in("named.vtu"), mesh, fields);
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  reader->SetFileName(in("named.vtu").c_str());
+  reader->Update();
+  vtkCellData* cells = reader->GetOutput()->GetCellData();
+  EXPECT_STREQ(cells->GetArray("strain")->GetComponentName(1), "across");
+  ASSERT_NE(vtkIntArray::SafeDownCast(cells->GetArray("part")), nullptr);
+  EXPECT_EQ(cells->GetArray("part")->GetTuple1(0), 7);
+  vtkFieldData* all = reader->GetOutput()->GetFieldData();
+  EXPECT_EQ(vtkStringArray::SafeDownCast(all->GetAbstractArray("names"))->GetValue(1),
+            "two, with \"quotes\"");
+  EXPECT_EQ(all->GetArray("time_ms")->GetTuple1(0), 12.5);
+  // The project's own reader takes it too.
+  EXPECT_EQ(read_vtu(in("named.vtu"), 1).num_tets(), mesh.num_tets());
+  fields.components = {{"strain", {"along"}}};
+  EXPECT_THROW(write_vtu(in("named.vtu"), mesh, fields), InputError);
 }
 
 TEST_F(Vtu, DeformedPointsReplaceTheReference) {
