@@ -52,7 +52,7 @@ run_both() {
   shift
   for k in 0 1; do
     XDG_CACHE_HOME="$folder/cache$k" "${programs[k]}" run "$@" --quiet --out "$folder/$name$k" --set output.figures=false \
-      --set 'mesh.file="../meshes/land_ellipsoid_coarse.vtu"' >/dev/null || { failed=1; return; }
+      --set 'mesh.file="meshes/land_ellipsoid_coarse.vtu"' >/dev/null || { failed=1; return; }
   done
   for table in strain.csv strain_peaks.csv affine.csv global_strain.csv cavity.csv; do
     compare "$folder/${name}0/$table" "$folder/${name}1/$table" "$name/$table" || failed=1

@@ -17,6 +17,7 @@
 
 #include "box_mesh.hpp"
 #include "ellipsoid_mesh.hpp"
+#include "example_data.hpp"
 #include "load_mesh.hpp"
 #include "progress.hpp"
 #include "warnings.hpp"
@@ -58,7 +59,7 @@ SceneResult beat(const BenchOptions& options) {
   BeatContext context;
   context.protocol = [&](std::vector<std::string> settings) {
     if (options.quick) settings.insert(settings.begin(), "time.max_beats=1");
-    return load_protocol(options.protocol, settings);
+    return load_protocol(given_or_example(options.protocol), settings);
   };
   context.anatomy = [&](const Protocol& protocol) {
     if (options.quick) return build_anatomy(structured_ellipsoid(human_lv(), {6, 12, 1}).mesh, protocol);

@@ -7,6 +7,7 @@
 #include <cardiac/heart/volume_check.hpp>
 #include <polyaffine/core/error.hpp>
 
+#include "example_data.hpp"
 #include "load_mesh.hpp"
 #include "warnings.hpp"
 
@@ -25,7 +26,7 @@ void print_line(const char* what, const Value& value, const std::string& remark 
 }
 
 void check(const CheckOptions& options) {
-  Protocol protocol = load_protocol(options.protocol, options.overrides);
+  Protocol protocol = load_protocol(given_or_example(options.protocol), options.overrides);
   check_mesh_file(protocol);
   const auto anatomy = std::make_shared<const Anatomy>(load_anatomy(protocol, protocol.warnings));
   print_warnings(protocol.warnings);

@@ -6,7 +6,8 @@
 
 namespace cardiac::app {
 
-ProgressLine::ProgressLine(bool quiet) : active_(!quiet && isatty(STDERR_FILENO) == 1) {}
+ProgressLine::ProgressLine(bool quiet, const char* bound)
+    : bound_(bound), active_(!quiet && isatty(STDERR_FILENO) == 1) {}
 
 ProgressLine::~ProgressLine() {
   if (shown_) std::fputs("\r\033[K", stderr);
@@ -19,9 +20,8 @@ void ProgressLine::operator()(const std::string& what, double fraction) {
   if (!active_ || elapsed < 2 || std::chrono::duration<double>(now - last_).count() < 0.2) return;
   last_ = now;
   shown_ = true;
-  const double left = fraction > 0 ? elapsed * (1 - fraction) / fraction : 0;
-  std::fprintf(stderr, "\r\033[K%s  %3.0f %%  %.0f s, at most %.0f s left", what.c_str(), 100 * fraction,
-               elapsed, left);
+  std::fprintf(stderr, "\r\033[K%s  %3.0f %%  %.0f s", what.c_str(), 100 * fraction, elapsed);
+  if (fraction > 0) std::fprintf(stderr, ", %s %.0f s left", bound_, elapsed * (1 - fraction) / fraction);
   std::fflush(stderr);
 }
 

@@ -10,7 +10,8 @@ namespace cardiac::app {
 /// after two seconds, and cleared at the end. Any thread may call it.
 class ProgressLine {
  public:
-  explicit ProgressLine(bool quiet);
+  /// `bound` says what the time left is: "at most" where the work may end before its last part, "about".
+  explicit ProgressLine(bool quiet, const char* bound = "at most");
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
@@ -19,6 +20,7 @@ class ProgressLine {
  private:
   using Clock = std::chrono::steady_clock;
   std::mutex mutex_;
+  const char* bound_;
   bool shown_ = false, active_;
   Clock::time_point start_ = Clock::now(), last_ = start_;
 };

@@ -22,6 +22,7 @@
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/mesh/digest.hpp>
 
+#include "example_data.hpp"
 #include "interrupt.hpp"
 #include "load_mesh.hpp"
 #include "progress.hpp"
@@ -63,11 +64,10 @@ std::string write_wall_figure(const Ventricle& ventricle, const Protocol& protoc
   return wall.svg;
 }
 
-void write_results(const Ventricle& ventricle, const Protocol& protocol, const HeartPath& path,
-                   BeatResult& result, const std::filesystem::path& out,
-                   std::chrono::steady_clock::time_point start) {
+// Tables, figures and meshes; the drawing of the wall for the page.
+std::string write_results(const Ventricle& ventricle, const Protocol& protocol, const HeartPath& path,
+                          BeatResult& result, const RunInfo& info, const std::filesystem::path& out) {
   const auto output_start = std::chrono::steady_clock::now();
-  const RunInfo info{CARDIAC_VERSION, resolved_json(protocol).dump(), 0};
   if (protocol.output.mesh_series && !path.outputs.empty())
     write_mesh_series(ventricle, protocol, path, result, out);
   std::string wall;
@@ -75,14 +75,28 @@ void write_results(const Ventricle& ventricle, const Protocol& protocol, const H
     write_figures(result, out);
     wall = write_wall_figure(ventricle, protocol, path, result, out);
   }
-  result.wall_output_s = seconds_since(output_start);
-  result.wall_total_s = seconds_since(start);
   if (protocol.output.tables) write_tables(result, info, out);
+  result.wall_output_s = seconds_since(output_start);
+  return wall;
+}
+
+// What tells the times of the run, and with it what they are.
+void write_summary(const Protocol& protocol, BeatResult& result, const RunInfo& info,
+                   const std::filesystem::path& out, const std::string& wall,
+                   std::chrono::steady_clock::time_point start) {
+  result.wall_total_s = seconds_since(start);
   polyaffine::write_atomically(out / "summary.json", summary_text(result, info));
   if (protocol.output.figures) write_report_page(result, info, out, wall);
 }
 
-void print_result(const BeatResult& result, const std::filesystem::path& out) {
+// Three digits.
+std::string seconds_text(double seconds) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(seconds < 10 ? 2 : seconds < 100 ? 1 : 0) << seconds << " s";
+  return text.str();
+}
+
+void print_result(const BeatResult& result, double verification_s, const std::filesystem::path& out) {
   std::cout << std::fixed << std::setprecision(1);
   for (const VentricleSummary& v : result.ventricles) {
     if (!result.has_beat && !v.samples.empty())
@@ -100,8 +114,11 @@ void print_result(const BeatResult& result, const std::filesystem::path& out) {
     std::cout << "against full order at " << v.instant << ": displacement " << v.displacement_error_percent
               << " %, volume " << v.volume_error_percent << " %, segment strain " << std::setprecision(3)
               << v.max_segment_strain_error << std::setprecision(1) << '\n';
-  std::cout << std::setprecision(2) << result.simulated_time_s << " s of the heart in " << result.wall_solve_s
-            << " s; results in " << out.string() << '\n';
+  std::cout << seconds_text(result.simulated_time_s) << " of the heart: set-up "
+            << seconds_text(result.wall_setup_s) << ", solve " << seconds_text(result.wall_solve_s);
+  if (!result.verification.empty()) std::cout << ", verification " << seconds_text(verification_s);
+  std::cout << ", output " << seconds_text(result.wall_output_s) << ", whole "
+            << seconds_text(result.wall_total_s) << "; results in " << out.string() << '\n';
 }
 
 // Where the time of the beats went.
@@ -125,9 +142,9 @@ void print_timing(const BeatResult& result) {
 
 // The checkpoint in the folder; none, and said so, where there is none.
 std::shared_ptr<const Checkpoint> last_checkpoint(const std::filesystem::path& file,
-                                                  const CheckpointOrigin& origin, bool quiet) {
+                                                  const CheckpointOrigin& origin) {
   if (std::filesystem::exists(file)) return std::make_shared<const Checkpoint>(read_checkpoint(file, origin));
-  if (!quiet) std::cerr << "cardiac: no " << file.string() << ": from the beginning\n";
+  print_warnings({"no " + file.string() + ": from the beginning"});
   return nullptr;
 }
 
@@ -151,7 +168,7 @@ HeartPath solve(const Ventricle& ventricle, const Protocol& protocol, const RunO
     control.on_checkpoint = [&](const Checkpoint& at) {
       polyaffine::write_atomically(file, checkpoint_text(at, origin));
     };
-  if (options.resume) control.resume = last_checkpoint(file, origin, options.quiet);
+  if (options.resume) control.resume = last_checkpoint(file, origin);
   remove_old_results(out);
   return protocol.circulation ? run_beats(ventricle, protocol, control)
                               : run_prescribed(ventricle, protocol, control);
@@ -172,7 +189,7 @@ std::string distrust(const Ventricle& ventricle, const Protocol& protocol, const
 void run(RunOptions options) {
   const auto start = std::chrono::steady_clock::now();
   if (!options.method.empty()) options.overrides.push_back("reduction.method=" + options.method);
-  Protocol protocol = load_protocol(options.protocol, options.overrides);
+  Protocol protocol = load_protocol(given_or_example(options.protocol), options.overrides);
   check_mesh_file(protocol);
   if (protocol.output.mesh_series && !writes_mesh_series()) {
     protocol.output.mesh_series = false;
@@ -181,7 +198,7 @@ void run(RunOptions options) {
   }
   const std::vector<PlanItem> items = plan(protocol, options.verify);
   const auto anatomy = std::make_shared<const Anatomy>(load_anatomy(protocol, protocol.warnings));
-  if (!options.quiet) print_warnings(protocol.warnings);
+  print_warnings(protocol.warnings);
   if (options.dry_run) return print_plan(items);
   const std::filesystem::path out =
       options.out.empty() ? std::filesystem::path("results") / std::filesystem::path(options.protocol).stem()
@@ -209,14 +226,19 @@ void run(RunOptions options) {
   result.wall_setup_s = setup;
   result.wall_solve_s = solve_s;
   result.plan = items;
-  if (!options.quiet) print_warnings(result.warnings);
+  print_warnings(result.warnings);
   result.warnings.insert(result.warnings.begin(), protocol.warnings.begin(), protocol.warnings.end());
-  write_results(ventricle, protocol, path, result, out, start);
+  const RunInfo info{CARDIAC_VERSION, resolved_json(protocol).dump(), 0};
+  const std::string wall = write_results(ventricle, protocol, path, result, info, out);
+  write_summary(protocol, result, info, out, wall, start);
+  double verification_s = 0;
   if (options.verify && path.completed && protocol.reduction.method == protocol::Method::polyaffine) {
+    const auto verification_start = std::chrono::steady_clock::now();
     result.verification = verify_path(ventricle, protocol, path);
-    write_results(ventricle, protocol, path, result, out, start);
+    verification_s = seconds_since(verification_start);
+    write_summary(protocol, result, info, out, wall, start);
   }
-  if (!options.quiet) print_result(result, out);
+  if (!options.quiet) print_result(result, verification_s, out);
   if (options.verbose && result.has_beat) print_timing(result);
   if (!path.completed)
     throw polyaffine::ComputationError(
@@ -242,7 +264,7 @@ void add_run_command(CLI::App& app) {
   command->add_flag("--resume", options->resume,
                     "go on from the checkpoint.json of an interrupted run in the result directory");
   command->add_flag("--verbose", options->verbose, "also print where the time of the solve went");
-  command->add_flag("--quiet", options->quiet, "no progress, no warnings, no summary");
+  command->add_flag("--quiet", options->quiet, "no progress, no summary; warnings go to stderr in any case");
   command->callback([options] { run(*options); });
 }
 

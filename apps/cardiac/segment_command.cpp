@@ -21,6 +21,7 @@
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/mesh/surface.hpp>
 
+#include "example_data.hpp"
 #include "label_options.hpp"
 #include "load_mesh.hpp"
 #include "output_file.hpp"
@@ -255,7 +256,10 @@ void add_segment_command(CLI::App& app) {
   command->add_option("--rv-epi-angle", o->angles.rv_epi_deg, "the same of the right free wall, deg")
       ->check(turn)
       ->capture_default_str();
-  command->callback([o] { segment(*o); });
+  command->callback([o] {
+    o->mesh = given_or_example(o->mesh);
+    segment(*o);
+  });
 }
 
 }  // namespace cardiac::app

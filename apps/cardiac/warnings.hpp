@@ -5,7 +5,7 @@
 
 namespace cardiac::app {
 
-/// Each text as a warning, a line of its own, on the standard error.
+/// Each text as a warning, a line of its own, on the standard error; no option hides it.
 void print_warnings(const std::vector<std::string>& warnings);
 
 }  // namespace cardiac::app

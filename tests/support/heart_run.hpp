@@ -17,7 +17,7 @@ inline Protocol shipped_protocol(const std::string& name, const std::vector<std:
 
 /// Overrides that put a protocol on the coarse mesh of Land's ellipsoid.
 inline std::vector<std::string> on_land_ellipsoid(std::vector<std::string> more = {}) {
-  more.emplace_back("mesh.file=\"../meshes/land_ellipsoid_coarse.vtu\"");
+  more.emplace_back("mesh.file=\"" PROJECT_DIR "/meshes/land_ellipsoid_coarse.vtu\"");
   return more;
 }
 

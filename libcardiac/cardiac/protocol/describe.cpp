@@ -1,5 +1,9 @@
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <iterator>
+#include <sstream>
+#include <utility>
 
 #include <cardiac/protocol/describe.hpp>
 #include <cardiac/protocol/key.hpp>
@@ -108,11 +112,62 @@ std::string explain_key(const Table& table, const Key& key) {
          line("goes with", condition_text(table, key)) + line("source", key.facts.source);
 }
 
+std::string header(const Table& table) {
+  return table.list ? "[[" + table.name + "]]" : '[' + table.name + ']';
+}
+
+std::string explain_tables() {
+  std::size_t width = 0;
+  for (const Table& table : tables()) width = std::max(width, header(table).size());
+  std::string text = "Tables of a protocol; `cardiac explain TABLE` lists the keys of one:\n";
+  for (const Table& table : tables()) {
+    text += "  " + header(table) + std::string(width + 2 - header(table).size(), ' ') + table.meaning + '\n';
+  }
+  return text;
+}
+
+std::string lower(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+/// All that a search looks at.
+std::string searched(const Table& table, const Key& key) {
+  std::string text = table.name + '.' + key.name + '\n' + key.facts.meaning + '\n' + key.facts.absent + '\n' +
+                     key.facts.source + '\n' + condition_text(table, key);
+  for (const std::string& choice : key.choices) text += '\n' + choice;
+  return lower(text);
+}
+
+/// The keys that hold all words; empty when there is none.
+std::string explain_matches(const std::string& words) {
+  std::vector<std::pair<const Table*, const Key*>> found;
+  std::size_t width = 0;
+  for (const Table& table : tables()) {
+    for (const Key& key : table.keys) {
+      const std::string text = searched(table, key);
+      std::istringstream list(lower(words));
+      const bool all =
+          std::all_of(std::istream_iterator<std::string>(list), std::istream_iterator<std::string>(),
+                      [&](const std::string& word) { return text.find(word) != std::string::npos; });
+      if (!all) continue;
+      found.emplace_back(&table, &key);
+      width = std::max(width, table.name.size() + 1 + key.name.size());
+    }
+  }
+  if (found.size() == 1) return explain_key(*found[0].first, *found[0].second);
+  std::string text;
+  for (const auto& [table, key] : found) {
+    const std::string path = table->name + '.' + key->name;
+    text += path + std::string(width + 2 - path.size(), ' ') + key->facts.meaning + '\n';
+  }
+  return text;
+}
+
 std::string explain_table(const Table& table) {
   std::size_t width = 0;
   for (const Key& key : table.keys) width = std::max(width, key.name.size());
-  std::string text =
-      (table.list ? "[[" + table.name + "]]  " : '[' + table.name + "]  ") + table.meaning + '\n';
+  std::string text = header(table) + "  " + table.meaning + '\n';
   if (table.optional) text += "  Left out: not built.\n";
   for (const Key& key : table.keys) {
     text += "  " + key.name + std::string(width + 2 - key.name.size(), ' ') + key.facts.meaning + '\n';
@@ -153,9 +208,10 @@ Json resolved_json(const Protocol& protocol) {
   return resolved;
 }
 
-std::string explain(const std::string& path) {
-  const auto dot = path.find('.');
-  const std::string first = path.substr(0, dot);
+std::string explain(const std::string& words) {
+  if (words.find_first_not_of(' ') == std::string::npos) return explain_tables();
+  const auto dot = words.find('.');
+  const std::string first = words.substr(0, dot);
   if (dot == std::string::npos) {
     if (const Table* table = find_table(first)) return explain_table(*table);
     std::string text;
@@ -164,11 +220,12 @@ std::string explain(const std::string& path) {
     }
     if (!text.empty()) return text;
   } else if (const Table* table = find_table(first)) {
-    if (const Key* key = find_key(*table, path.substr(dot + 1))) return explain_key(*table, *key);
+    if (const Key* key = find_key(*table, words.substr(dot + 1))) return explain_key(*table, *key);
   }
+  if (const std::string found = explain_matches(words); !found.empty()) return found;
   const std::string nearest =
-      dot == std::string::npos ? nearest_key("", path) : nearest_key(first, path.substr(dot + 1));
-  throw polyaffine::InputError(path + ": unknown key; the nearest known key is " + nearest);
+      dot == std::string::npos ? nearest_key("", words) : nearest_key(first, words.substr(dot + 1));
+  throw polyaffine::InputError(words + ": unknown key; the nearest known key is " + nearest);
 }
 
 std::vector<std::string> key_paths() {

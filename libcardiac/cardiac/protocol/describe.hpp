@@ -16,9 +16,11 @@ nlohmann::json protocol_schema();
 /// part. Each table reads back as the same protocol.
 nlohmann::json resolved_json(const Protocol& protocol);
 
-/// Meaning, type, unit, default, range and source of a key (`table.key`, or the key alone where only one
-/// table has it); the keys of a table for its name. Throws polyaffine::InputError that names the nearest key.
-std::string explain(const std::string& path);
+/// Meaning, type, unit, default, range and source of a key (`table.key`, or the key alone); the keys of a
+/// table for its name; for other words the keys whose name, meaning, choices or source hold all of them (a
+/// single one explained), the tables for none. Throws polyaffine::InputError that names the nearest key where
+/// nothing fits.
+std::string explain(const std::string& words);
 
 /// Paths of all keys, in the order of the protocol file.
 std::vector<std::string> key_paths();

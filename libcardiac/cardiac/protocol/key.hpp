@@ -36,6 +36,7 @@ struct KeyFacts {
   std::string used_with =
       {};  ///< key that decides whether this one plays a part: of its table, or "table.key"
   std::vector<std::string> used_values = {};  ///< with these values; empty: when it is given at all
+  bool path = false;                          ///< a file: relative to the folder of what names it
 };
 
 struct Key {

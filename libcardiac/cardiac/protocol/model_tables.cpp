@@ -25,8 +25,9 @@ Table mesh_table() {
       .key("file", &Mesh::file,
            {.meaning =
                 "tetrahedral mesh (.vtu, .vtk, Gmsh .msh, openCARP .pts), path relative to the protocol "
-                "file",
-            .absent = "an idealised shape is meshed"})
+                "file (in --set: to the current folder)",
+            .absent = "an idealised shape is meshed",
+            .path = true})
       .key("length_unit", &Mesh::length_unit,
            {.meaning = "length unit of the coordinates in the mesh file; required with file, never guessed",
             .used_with = "file"})
@@ -47,9 +48,10 @@ Table mesh_table() {
       .key("surface_file", &Mesh::surface_file,
            {.meaning =
                 "second file with the labelled surface triangles (.vtu, .vtp, .vtk), in the unit of the "
-                "mesh, path relative to the protocol file",
+                "mesh, path relative to the protocol file (in --set: to the current folder)",
             .absent = "the triangles of the mesh file",
-            .used_with = "file"})
+            .used_with = "file",
+            .path = true})
       .key("label_array", &Mesh::label_array,
            {.meaning = "cell array that holds the surface labels",
             .absent = "the first of the usual names: surface, label, tag, physical (Gmsh), …",

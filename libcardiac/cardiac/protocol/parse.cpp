@@ -37,6 +37,32 @@ void merge(std::vector<Entry>& entries, std::vector<Entry> overrides) {
   }
 }
 
+/// The path that leads from `directory`, the protocol's, to the file that `word` names from the current
+/// folder; an absolute path as it is.
+std::string from_directory(const std::string& word, const std::filesystem::path& directory) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path current = fs::current_path(error);
+  if (error || word.empty() || fs::path(word).is_absolute()) return word;
+  const fs::path folder = (current / directory).lexically_normal();
+  return (current / word).lexically_normal().lexically_proximate(folder).string();
+}
+
+/// An override is typed in a shell, whose folder its relative paths start at.
+std::vector<Entry> from_shell(std::vector<Entry> overrides, const std::filesystem::path& directory) {
+  for (Entry& entry : overrides) {
+    const Table* table = find_table(entry.table);
+    const Key* key = table == nullptr ? nullptr : find_key(*table, entry.key);
+    if (key == nullptr || !key->facts.path) continue;
+    if (entry.value.is_string())
+      entry.value = from_directory(entry.value.get<std::string>(), directory);
+    else if (entry.value.is_array())
+      for (Json& one : entry.value)
+        if (one.is_string()) one = from_directory(one.get<std::string>(), directory);
+  }
+  return overrides;
+}
+
 [[noreturn]] void fail_unknown(const Entry& entry) {
   const std::string nearest = nearest_key(entry.table, entry.key);
   const bool unit_left_out = nearest.find('.' + entry.key + '_') != std::string::npos;
@@ -127,20 +153,25 @@ std::filesystem::path surface_path(const Protocol& protocol) {
 
 void check_mesh_file(const Protocol& protocol) {
   if (protocol.mesh.file && !std::filesystem::is_regular_file(mesh_path(protocol))) {
-    throw InputError("mesh.file: no such file " + mesh_path(protocol).string() +
-                     "; expected a tetrahedral mesh, its path relative to the protocol file");
+    throw InputError(
+        "mesh.file: no such file " + mesh_path(protocol).string() +
+        "; expected a tetrahedral mesh, its path relative to the protocol file (in --set: to the "
+        "current folder)");
   }
   if (protocol.mesh.file && protocol.mesh.surface_file &&
       !std::filesystem::is_regular_file(surface_path(protocol))) {
-    throw InputError("mesh.surface_file: no such file " + surface_path(protocol).string() +
-                     "; expected labelled triangles, its path relative to the protocol file");
+    throw InputError(
+        "mesh.surface_file: no such file " + surface_path(protocol).string() +
+        "; expected labelled triangles, its path relative to the protocol file (in --set: to the "
+        "current folder)");
   }
 }
 
 Protocol parse_protocol(const std::string& text, const std::filesystem::path& source,
                         const std::vector<std::string>& overrides) {
   std::vector<Entry> entries = read_entries(text, source.string());
-  for (const std::string& assignment : overrides) merge(entries, read_override(assignment));
+  for (const std::string& assignment : overrides)
+    merge(entries, from_shell(read_override(assignment), source.parent_path()));
 
   Protocol protocol;
   protocol.directory = source.parent_path();

@@ -10,15 +10,16 @@ namespace {
 
 using namespace protocol;
 
-PlanItem mesh_item(const Mesh& mesh) {
-  if (mesh.file) return {"mesh", true, "read from " + *mesh.file};
+PlanItem mesh_item(const Protocol& protocol) {
+  const Mesh& mesh = protocol.mesh;
+  if (mesh.file) return {"mesh", true, "read from " + mesh_path(protocol).string()};
   return {"mesh", true, "idealised shape " + name_of(*mesh.shape)};
 }
 
 PlanItem fibres_item(const Protocol& protocol) {
   const std::string why = why_fibres(protocol);
   if (!why.empty() && protocol.fibres->source == FibreSource::file)
-    return {"fibres", true, why + "; those of " + *protocol.mesh.file + " (fibres.source = file)"};
+    return {"fibres", true, why + "; those of " + mesh_path(protocol).string() + " (fibres.source = file)"};
   if (!why.empty())
     return {"fibres", true,
             why + "; by the rule " + name_of(protocol.fibres->rule) + " (fibres.source = rule)"};
@@ -92,7 +93,7 @@ std::vector<PlanItem> plan(const Protocol& protocol, bool verify) {
   const bool reduced = protocol.reduction.method == Method::polyaffine;
   const std::string method = "reduction.method = " + name_of(protocol.reduction.method);
   std::vector<PlanItem> items = {
-      mesh_item(protocol.mesh),
+      mesh_item(protocol),
       {"coordinates", true, "segments, local axes and strain need them"},
       {"segments", true, "strain is told by segment (" + name_of(protocol.anatomy.scheme) + ")"},
       fibres_item(protocol),

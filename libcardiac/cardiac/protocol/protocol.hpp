@@ -40,8 +40,8 @@ std::filesystem::path surface_path(const Protocol& protocol);
 void check_mesh_file(const Protocol& protocol);
 
 /// Reads a protocol file (.toml). `overrides` are texts `key.path=value`, the value in TOML (a bare word is
-/// taken as text); they replace what the file says and pass the same checks. Throws polyaffine::InputError,
-/// naming file, line or option, key, what was found, what was expected and the unit.
+/// taken as text, relative paths start at the current folder); they replace what the file says. Throws
+/// polyaffine::InputError, naming file, line or option, key, what was found, what was expected and the unit.
 Protocol load_protocol(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
 /// The same from a text; `source` stands for the file in messages and gives the directory.

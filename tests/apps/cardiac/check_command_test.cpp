@@ -11,7 +11,7 @@ using ::testing::IsEmpty;
 ProgramRun check(const std::string& more) {
   return run_program("check " PROJECT_DIR
                      "/protocols/passive_inflation.toml "
-                     "--set 'mesh.file=\"../meshes/land_ellipsoid_coarse.vtu\"' " +
+                     "--set 'mesh.file=\"" PROJECT_DIR "/meshes/land_ellipsoid_coarse.vtu\"' " +
                      more);
 }
 

@@ -20,8 +20,8 @@ using polyaffine::testing::random_vector;
 
 /// The shipped biventricle protocol on the coarse mesh, its anatomy computed once.
 struct CoarseBiventricle {
-  Protocol protocol =
-      testing::shipped_protocol("healthy_biv", {"mesh.file=\"../meshes/healthy_biv_coarse.vtu\""});
+  Protocol protocol = testing::shipped_protocol(
+      "healthy_biv", {"mesh.file=\"" PROJECT_DIR "/meshes/healthy_biv_coarse.vtu\""});
   std::shared_ptr<const Anatomy> anatomy = testing::read_anatomy(protocol);
 
   static const CoarseBiventricle& get() {

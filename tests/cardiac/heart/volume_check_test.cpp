@@ -23,7 +23,7 @@ VolumeCheck on_land(std::vector<std::string> overrides) {
 }
 
 VolumeCheck two_ventricles(const std::string& preset) {
-  return check("healthy_biv", {preset, "mesh.file=\"../meshes/healthy_biv_coarse.vtu\""});
+  return check("healthy_biv", {preset, "mesh.file=\"" PROJECT_DIR "/meshes/healthy_biv_coarse.vtu\""});
 }
 
 TEST(VolumeCheck, PassesBothPresetsOnOneVentricleAndFastOnTwo) {

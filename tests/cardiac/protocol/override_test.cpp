@@ -17,9 +17,25 @@ TEST(Override, ReplacesAddsAndOpensTables) {
   EXPECT_EQ(protocol.anatomy.anterior_direction, (cardiac::protocol::Vector3{1, 0, 0}));
   const std::string file = "[mesh]\nfile = \"a.vtu\"\nlength_unit = \"mm\"\n";
   EXPECT_EQ(parsed(file + kPassive.substr(kPassive.find("[tissue]")), {"mesh.file=../b.vtu"}).mesh.file,
-            "../b.vtu");  // a path needs no quotes
+            "../../b.vtu");  // a path needs no quotes
   EXPECT_EQ(parsed(kPassive, {"fibres.endo_angle_deg=70"}).fibres->endo_angle_deg, 70);
   EXPECT_EQ(parsed(kPassive, {"tissue={law=\"mooney_rivlin\", c1_kPa=2}"}).tissue.c1_kPa, 2);
+}
+
+TEST(Override, PathsStartAtTheCurrentFolder) {
+  // The protocol of these texts is folder/heart.toml.
+  const std::string file = "[mesh]\nfile = \"a.vtu\"\nlength_unit = \"mm\"\nsurface_file = \"s.vtp\"\n";
+  const std::string text = file + kPassive.substr(kPassive.find("[tissue]"));
+  EXPECT_EQ(mesh_path(parsed(text)), "folder/a.vtu");
+  const auto given = [&](const std::string& word) { return parsed(text, {"mesh.file=" + word}); };
+  EXPECT_EQ(mesh_path(given("b.vtu")), "b.vtu");
+  EXPECT_EQ(given("b.vtu").mesh.file, "../b.vtu");  // as the protocol file would name it
+  EXPECT_EQ(mesh_path(given("./folder/b.vtu")), "folder/b.vtu");
+  EXPECT_EQ(given("folder/b.vtu").mesh.file, "b.vtu");
+  EXPECT_EQ(mesh_path(given("../b.vtu")), "../b.vtu");
+  EXPECT_EQ(given("/data/b.vtu").mesh.file, "/data/b.vtu");
+  EXPECT_EQ(surface_path(parsed(text, {"mesh.surface_file=\"b.vtp\""})), "b.vtp");
+  EXPECT_EQ(mesh_path(parsed(text, {"mesh={file=\"b.vtu\", length_unit=\"mm\"}"})), "b.vtu");
 }
 
 TEST(Override, ReachesRegions) {
