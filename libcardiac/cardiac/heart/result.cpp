@@ -4,6 +4,7 @@
 #include <limits>
 
 #include <cardiac/core/units.hpp>
+#include <cardiac/heart/haemodynamics.hpp>
 #include <cardiac/heart/reduced_points.hpp>
 #include <cardiac/strain/affine_parameters.hpp>
 #include <cardiac/strain/segment_strain.hpp>
@@ -20,7 +21,7 @@ namespace {
 constexpr double kCrushed = 0.5;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-VentricleSummary summarise(const HeartPath& path, const KeySteps& key, bool right, bool has_beat) {
+VentricleSummary summarise(const HeartPath& path, const KeyStates& key, bool right, bool has_beat) {
   const auto volume_mL = [right](const HeartState& s) {
     return (right ? s.right_volume_mm3 : s.volume_mm3) / mm3_per_mL;
   };
@@ -37,14 +38,18 @@ VentricleSummary summarise(const HeartPath& path, const KeySteps& key, bool righ
         {s.time_ms, volume_mL(s), pressure_mmHg(s), key.phases.empty() ? Phase::filling : key.phases[k]});
   }
   out.edv_mL = out.esv_mL = out.sv_mL = out.ef_percent = out.edp_mmHg = kNone;
-  out.ed_time_ms = path.steps[key.ed].time_ms;
-  out.es_time_ms = path.steps[key.es].time_ms;
-  if (!has_beat) return out;
-  out.edv_mL = volume_mL(path.steps[key.ed]);
-  out.esv_mL = volume_mL(path.steps[key.es]);
+  out.ed_time_ms = key.ed.time_ms;
+  out.es_time_ms = key.es.time_ms;
+  out.ed_is = key.ed_is;
+  out.es_is = key.es_is;
+  if (!has_beat && !(path.contraction_begins && key.largest_mm3 > 0)) return out;
+  out.edv_mL = key.largest_mm3 / mm3_per_mL;
+  out.esv_mL = key.smallest_mm3 / mm3_per_mL;
+  out.isovolumetric_contraction_change_mL = key.contraction_change_mm3 / mm3_per_mL;
+  out.isovolumetric_relaxation_change_mL = key.relaxation_change_mm3 / mm3_per_mL;
   out.sv_mL = out.edv_mL - out.esv_mL;
   out.ef_percent = 100 * out.sv_mL / out.edv_mL;
-  out.edp_mmHg = pressure_mmHg(path.steps[key.ed]);
+  out.edp_mmHg = pressure_mmHg(key.ed);
   return out;
 }
 
@@ -69,45 +74,7 @@ std::vector<SegmentInfo> segment_info(const Ventricle& ventricle) {
   return out;
 }
 
-std::vector<Phase> phases(const HeartPath& path, const protocol::Circulation& circulation, bool right) {
-  const auto n = static_cast<Eigen::Index>(path.steps.size());
-  Vector before(n), pressure(n), behind(n);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const HeartState& s = path.steps[k];
-    pressure[k] = right ? s.right_pressure_kPa : s.pressure_kPa;
-    behind[k] = right ? s.loop[0] : s.capacitor_pressure_kPa;
-    if (s.loop.size() > 0) before[k] = right ? s.loop[2] : s.loop[1];
-  }
-  if (path.steps.front().loop.size() == 0)
-    return classify_phases(left_heart_loop(circulation), pressure, behind);
-  const TwoSidedLoop loop = two_sided_loop(circulation);
-  const auto& side = right ? loop.right : loop.left;
-  return classify_phases(side.inlet, side.outlet, before, pressure, behind);
-}
-
-KeySteps find_key_steps(const HeartPath& path, const Protocol& protocol, bool right) {
-  KeySteps out;
-  if (path.steps.empty()) return out;
-  out.es = path.steps.size() - 1;
-  if (!protocol.circulation) return out;
-  out.phases = phases(path, *protocol.circulation, right);
-  for (std::size_t k = 1; k < out.phases.size(); ++k) {
-    if (out.phases[k] == Phase::isovolumetric_contraction && out.phases[k - 1] == Phase::filling)
-      out.ed = k - 1;
-    if (out.phases[k] != Phase::ejection && out.phases[k - 1] == Phase::ejection) out.es = k - 1;
-  }
-  return out;
-}
-
 }  // namespace
-
-KeySteps key_steps(const HeartPath& path, const Protocol& protocol) {
-  return find_key_steps(path, protocol, false);
-}
-
-KeySteps right_key_steps(const HeartPath& path, const Protocol& protocol) {
-  return find_key_steps(path, protocol, true);
-}
 
 std::vector<ControlNode> segment_nodes(const Anatomy& anatomy, const Protocol& protocol) {
   FrameLayout layout = protocol_layout(anatomy, protocol);
@@ -122,6 +89,7 @@ BeatResult describe_path(const Ventricle& ventricle, const std::vector<ControlNo
   const auto& d = ventricle.discretisation;
   out.method = d.sparse ? "fem" : "polyaffine";
   out.has_beat = protocol.circulation.has_value();
+  out.has_contraction = protocol.contraction.has_value();
   out.mesh_vertices = anatomy.mesh.num_points();
   out.mesh_tets = anatomy.mesh.num_tets();
   out.dofs = d.num_unknowns;
@@ -146,10 +114,17 @@ BeatResult describe_path(const Ventricle& ventricle, const std::vector<ControlNo
   out.segments = segment_info(told);
   if (path.steps.empty()) return out;
 
-  const KeySteps key = key_steps(path, protocol);
+  const KeyStates key = key_states(path, protocol);
   out.ventricles.push_back(summarise(path, key, false, out.has_beat));
   if (ventricle.right_cavity)
-    out.ventricles.push_back(summarise(path, right_key_steps(path, protocol), true, out.has_beat));
+    out.ventricles.push_back(summarise(path, key_states(path, protocol, 1), true, out.has_beat));
+  for (int k = 0; k < static_cast<int>(out.ventricles.size()); ++k)
+    for (std::string& warning : valve_warnings(path, protocol, k)) out.warnings.push_back(std::move(warning));
+  if (out.has_beat) {
+    for (std::size_t k = 0; k < out.ventricles.size(); ++k)
+      out.ventricles[k].haemodynamics = haemodynamics(path, protocol, static_cast<int>(k));
+    out.circulation = circulation_table(path, protocol);
+  }
   const polyaffine::WallPoints points = strain_points(anatomy, d);
   const polyaffine::FieldTable table = polyaffine::deformation_table(*d.basis, points);
   const SegmentGauge gauge(*anatomy.coordinates, points);
@@ -158,7 +133,7 @@ BeatResult describe_path(const Ventricle& ventricle, const std::vector<ControlNo
   const auto gradients = [&](const Vector& c) { return polyaffine::evaluate_field(table, c); };
   const auto* frames = d.layout.follows_segments ? d.frame_basis.get() : nullptr;
 
-  const Matrix F_ed = gradients(path.steps[key.ed].c);
+  const Matrix F_ed = gradients(key.ed.c);
   for (const HeartState& state : path.outputs) {
     Instant instant{state.time_ms, gauge.strain(gradients(state.c), F_ed), {}};
     instant.frames =
@@ -168,9 +143,8 @@ BeatResult describe_path(const Ventricle& ventricle, const std::vector<ControlNo
   }
   std::vector<double> volumes;
   for (const auto& s : out.segments) volumes.push_back(s.volume_mL);
-  out.strain = global_strain(
-      gauge.strain(gradients(path.steps[key.es].c), F_ed),
-      gauge.rotation_deg(positions(path.steps[key.es].c), positions(path.steps[key.ed].c)), volumes);
+  out.strain = global_strain(gauge.strain(gradients(key.es.c), F_ed),
+                             gauge.rotation_deg(positions(key.es.c), positions(key.ed.c)), volumes);
   return out;
 }
 
