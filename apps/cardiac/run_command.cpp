@@ -14,6 +14,7 @@
 #include <cardiac/protocol/describe.hpp>
 #include <cardiac/protocol/plan.hpp>
 #include <cardiac/report/figures.hpp>
+#include <cardiac/report/haemodynamics_text.hpp>
 #include <cardiac/report/page.hpp>
 #include <cardiac/report/summary.hpp>
 #include <cardiac/report/tables.hpp>
@@ -105,6 +106,7 @@ void print_result(const BeatResult& result, double verification_s, const std::fi
     if (!result.has_beat || !result.completed) continue;
     std::cout << v.name << ": EDV " << v.edv_mL << " mL, ESV " << v.esv_mL << " mL, EF " << v.ef_percent
               << " %, peak pressure " << v.peak_pressure_mmHg << " mmHg, EDP " << v.edp_mmHg << " mmHg\n";
+    for (const std::string& line : haemodynamics_lines(v)) std::cout << v.name << ": " << line << '\n';
   }
   if (result.has_beat && result.completed)
     std::cout << "strain at end systole: GLS " << result.strain.gls_percent << " %, GCS "

@@ -17,7 +17,7 @@ Figure wall_figure(const Ventricle& ventricle, const Protocol& protocol, const H
   const VentricularCoordinates& coordinates = *anatomy.coordinates;
   const polyaffine::Vec3& axis = coordinates.axis();
   const polyaffine::Vec3 lateral = coordinates.anterior().cross(axis).normalized();
-  const bool beat = result.has_beat;
+  const bool beat = result.has_beat || result.has_contraction;
   WallPicture picture{"Circumferential strain of the segments",
                       "%",
                       "shortening",
@@ -27,14 +27,13 @@ Figure wall_figure(const Ventricle& ventricle, const Protocol& protocol, const H
                       {lateral + 0.35 * axis, axis, "inferior", "anterior"},
                       {}};
   const auto map = vertex_displacement(ventricle);
-  const auto panel = [&](std::size_t step, const std::string& title) {
-    const HeartState& state = path.steps.at(step);
+  const auto panel = [&](const HeartState& state, const std::string& title) {
     const polyaffine::Points x = anatomy.mesh.points() + map.apply(state.c);
     const std::string note = display_text(state.volume_mm3 / mm3_per_mL, 0) + " mL, " +
                              display_text(state.pressure_kPa / kPa_per_mmHg, 0) + " mmHg";
     return WallPanel{title, note, picture.cut.positions(x), {}};
   };
-  const KeySteps key = key_steps(path, protocol);
+  const KeyStates key = key_states(path, protocol);
   WallPanel before = panel(key.ed, beat ? "end diastole" : "start");
   WallPanel after = panel(key.es, beat ? "end systole" : "end");
   const auto [ed_ms, es_ms] = cardiac_times(result);

@@ -36,7 +36,7 @@ struct HeartRun {
   Ventricle ventricle;
   HeartPath path;
   BeatResult result;
-  KeySteps key;
+  KeyStates key;
 
   explicit HeartRun(const Protocol& of) : HeartRun(of, read_anatomy(of)) {}
   HeartRun(Protocol of, const std::shared_ptr<const Anatomy>& anatomy)
@@ -44,7 +44,7 @@ struct HeartRun {
         ventricle(build_ventricle(anatomy, protocol, protocol.reduction.method)),
         path(protocol.circulation ? run_beats(ventricle, protocol) : run_prescribed(ventricle, protocol)),
         result(describe_path(ventricle, segment_nodes(*anatomy, protocol), protocol, path)),
-        key(key_steps(path, protocol)) {}
+        key(key_states(path, protocol)) {}
 };
 
 /// The run of a shipped protocol as it is, computed once a test program.

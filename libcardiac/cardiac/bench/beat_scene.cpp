@@ -34,7 +34,7 @@ Beat run(const BeatContext& context, const std::shared_ptr<const Anatomy>& anato
   out.setup_s = built - start;
   if (!out.path.completed) return out;
   out.result = describe_path(out.ventricle, segment_nodes(*anatomy, out.protocol), out.protocol, out.path);
-  out.end_systole = out.path.steps[key_steps(out.path, out.protocol).es].c;
+  out.end_systole = key_states(out.path, out.protocol).es.c;
   return out;
 }
 

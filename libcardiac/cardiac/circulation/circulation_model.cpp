@@ -15,4 +15,21 @@ CirculationModel::Rates LeftHeartCirculation::rates(const Vector& states, const 
   return out;
 }
 
+CirculationModel::Side LeftHeartCirculation::side(int, const Vector& states,
+                                                  const Vector& pressures_kPa) const {
+  const double capacitor = states[1], behind = loop_.arteries.reference_pressure_kPa;
+  const LoopFlows flows = loop_flows(loop_, pressures_kPa[0], capacitor);
+  return {.before_kPa = loop_.filling_pressure_kPa,
+          .capacitor_kPa = capacitor,
+          .artery_kPa = flows.aortic_pressure_kPa,
+          .behind_kPa = behind,
+          .inflow_mm3_per_ms = flows.mitral_mm3_per_ms,
+          .outflow_mm3_per_ms = flows.aortic_mm3_per_ms,
+          .run_off_mm3_per_ms = (capacitor - behind) / loop_.arteries.peripheral_resistance_kPa_ms_per_mm3};
+}
+
+Vector LeftHeartCirculation::compliances() const {
+  return (Vector(2) << 0, loop_.arteries.compliance_mm3_per_kPa).finished();
+}
+
 }  // namespace cardiac

@@ -53,12 +53,31 @@ CirculationModel::Rates TwoSidedCirculation::rates(const Vector& z, const Vector
   return out;
 }
 
+CirculationModel::Side TwoSidedCirculation::side(int cavity, const Vector& z, const Vector& p) const {
+  const TwoSidedLoop::Side& side = of(cavity);
+  const Windkessel& arteries = side.arteries;
+  const double before = z[kVeins[cavity]], capacitor = z[kArteries[cavity]], behind = z[kVeins[1 - cavity]];
+  const double outflow = valve_flow(outlet(side.outlet, arteries), p[cavity] - capacitor).flow_mm3_per_ms;
+  return {.before_kPa = before,
+          .capacitor_kPa = capacitor,
+          .artery_kPa = inlet_pressure(arteries, capacitor, outflow),
+          .behind_kPa = behind,
+          .inflow_mm3_per_ms = valve_flow(side.inlet, before - p[cavity]).flow_mm3_per_ms,
+          .outflow_mm3_per_ms = outflow,
+          .run_off_mm3_per_ms = (capacitor - behind) / arteries.peripheral_resistance_kPa_ms_per_mm3};
+}
+
+Vector TwoSidedCirculation::compliances() const {
+  Vector out = Vector::Zero(two_sided_size);
+  for (int k = 0; k < 2; ++k) {
+    out[kArteries[k]] = of(k).arteries.compliance_mm3_per_kPa;
+    out[kVeins[k]] = of(k).venous_compliance_mm3_per_kPa;
+  }
+  return out;
+}
+
 double TwoSidedCirculation::blood_volume(const Vector& z) const {
-  return z[left_volume] + z[right_volume] +
-         loop_.left.arteries.compliance_mm3_per_kPa * z[systemic_arterial_pressure] +
-         loop_.right.arteries.compliance_mm3_per_kPa * z[pulmonary_arterial_pressure] +
-         loop_.left.venous_compliance_mm3_per_kPa * z[pulmonary_venous_pressure] +
-         loop_.right.venous_compliance_mm3_per_kPa * z[systemic_venous_pressure];
+  return z[left_volume] + z[right_volume] + compliances().dot(z);
 }
 
 }  // namespace cardiac

@@ -36,11 +36,19 @@ class TwoSidedCirculation : public CirculationModel {
   int num_cavities() const override { return 2; }
   int num_states() const override { return two_sided_size; }
   Rates rates(const polyaffine::Vector& states, const polyaffine::Vector& pressures_kPa) const override;
+  Side side(int cavity, const polyaffine::Vector& states,
+            const polyaffine::Vector& pressures_kPa) const override;
+  const Valve& inlet(int cavity) const override { return of(cavity).inlet; }
+  const Valve& outlet_valve(int cavity) const override { return of(cavity).outlet; }
+  polyaffine::Vector compliances() const override;
+  bool is_closed() const override { return true; }
 
   /// Σ V + Σ C p in mm³.
   double blood_volume(const polyaffine::Vector& states) const;
 
  private:
+  const TwoSidedLoop::Side& of(int cavity) const { return cavity == 0 ? loop_.left : loop_.right; }
+
   TwoSidedLoop loop_;
 };
 

@@ -26,35 +26,6 @@ void require_positive(double value, const char* name, const char* unit) {
   throw InputError(text.str());
 }
 
-void check(const BestelParameters& p, double period_ms) {
-  require_positive(p.activation_rate_per_ms, "activation rate", "1/ms");
-  require_positive(p.relaxation_rate_per_ms, "relaxation rate", "1/ms");
-  require_positive(p.steepness_ms, "steepness", "ms");
-  require_positive(period_ms, "heart period", "ms");
-  std::ostringstream text;
-  if (!(p.contractility_kPa >= 0 && std::isfinite(p.contractility_kPa))) {
-    text << "contraction: contractility is " << p.contractility_kPa
-         << ", expected a number of at least 0 in kPa";
-    throw InputError(text.str());
-  }
-  if (!(p.diastole_ms > p.systole_ms && p.diastole_ms < p.systole_ms + period_ms)) {
-    text << "contraction: relaxation begins at " << p.diastole_ms << " ms, expected after contraction ("
-         << p.systole_ms << " ms) and less than one heart period (" << period_ms << " ms) later";
-    throw InputError(text.str());
-  }
-  const double middle = 0.5 * (p.systole_ms + p.diastole_ms);
-  if (!(activation_rate(p, period_ms, middle) > 0)) {
-    text << "contraction: from " << p.systole_ms << " to " << p.diastole_ms
-         << " ms is too short to contract with a steepness of " << p.steepness_ms << " ms";
-    throw InputError(text.str());
-  }
-  if (!(activation_rate(p, period_ms, middle + 0.5 * period_ms) < 0)) {
-    text << "contraction: a heart period of " << period_ms << " ms leaves no time to relax between "
-         << p.diastole_ms << " ms and the next contraction at " << p.systole_ms + period_ms << " ms";
-    throw InputError(text.str());
-  }
-}
-
 /// The time between `relaxing` (a < 0) and `contracting` (a > 0) where a = 0, by bisection to the last bit.
 double zero_of_activation(const BestelParameters& p, double period_ms, double relaxing, double contracting) {
   for (;;) {
@@ -87,6 +58,35 @@ std::vector<TensionCurve::Sample> integrate(const BestelParameters& p, double pe
 
 }  // namespace
 
+void check_contraction(const BestelParameters& p, double period_ms) {
+  require_positive(p.activation_rate_per_ms, "activation rate", "1/ms");
+  require_positive(p.relaxation_rate_per_ms, "relaxation rate", "1/ms");
+  require_positive(p.steepness_ms, "steepness", "ms");
+  require_positive(period_ms, "heart period", "ms");
+  std::ostringstream text;
+  if (!(p.contractility_kPa >= 0 && std::isfinite(p.contractility_kPa))) {
+    text << "contraction: contractility is " << p.contractility_kPa
+         << ", expected a number of at least 0 in kPa";
+    throw InputError(text.str());
+  }
+  if (!(p.diastole_ms > p.systole_ms && p.diastole_ms < p.systole_ms + period_ms)) {
+    text << "contraction: relaxation begins at " << p.diastole_ms << " ms, expected after contraction ("
+         << p.systole_ms << " ms) and less than one heart period (" << period_ms << " ms) later";
+    throw InputError(text.str());
+  }
+  const double middle = 0.5 * (p.systole_ms + p.diastole_ms);
+  if (!(activation_rate(p, period_ms, middle) > 0)) {
+    text << "contraction: from " << p.systole_ms << " to " << p.diastole_ms
+         << " ms is too short to contract with a steepness of " << p.steepness_ms << " ms";
+    throw InputError(text.str());
+  }
+  if (!(activation_rate(p, period_ms, middle + 0.5 * period_ms) < 0)) {
+    text << "contraction: a heart period of " << period_ms << " ms leaves no time to relax between "
+         << p.diastole_ms << " ms and the next contraction at " << p.systole_ms + period_ms << " ms";
+    throw InputError(text.str());
+  }
+}
+
 double contraction_indicator(const BestelParameters& p, double period_ms, double time_ms) {
   const double middle = 0.5 * (p.systole_ms + p.diastole_ms), half = 0.5 * (p.diastole_ms - p.systole_ms);
   const double offset = std::remainder(time_ms - middle, period_ms);
@@ -108,7 +108,7 @@ double tension_rate(const BestelParameters& p, double period_ms, double time_ms,
 }
 
 TensionCurve::TensionCurve(const BestelParameters& p, double period_ms) : period_ms_(period_ms) {
-  check(p, period_ms);
+  check_contraction(p, period_ms);
   const double middle = 0.5 * (p.systole_ms + p.diastole_ms);
   begin_ms_ = zero_of_activation(p, period_ms, middle - 0.5 * period_ms, middle);
   end_ms_ = zero_of_activation(p, period_ms, middle + 0.5 * period_ms, middle);

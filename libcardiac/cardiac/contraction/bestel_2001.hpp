@@ -19,6 +19,11 @@ struct BestelParameters {
   double steepness_ms = 5;                ///< γ, width of both switches
 };
 
+/// Throws polyaffine::InputError when a rate, σ₀, γ or the period is not positive, relaxation does not follow
+/// contraction within one period, contraction is too short to take place (f never reaches α_rel / (α_act +
+/// α_rel)), or the period leaves no time to relax.
+void check_contraction(const BestelParameters& parameters, double period_ms);
+
 /// f(t) = S⁺(t − t_sys) S⁻(t − t_dias), S± = ½ (1 ± tanh(·/γ)), repeated with the heart period: between 0
 /// (relaxing) and 1 (contracting). Source: Aróstica et al. 2025.
 double contraction_indicator(const BestelParameters& parameters, double period_ms, double time_ms);
@@ -40,9 +45,7 @@ class TensionCurve {
     double tension_kPa, rate_kPa_per_ms;
   };
 
-  /// Throws polyaffine::InputError when a rate, σ₀, γ or the period is not positive, relaxation does not
-  /// follow contraction within one period, or contraction is too short to take place (f never reaches
-  /// α_rel / (α_act + α_rel)).
+  /// Throws as check_contraction.
   TensionCurve(const BestelParameters& parameters, double period_ms);
 
   /// τ and τ̇ at any time, also negative: periodic.

@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iomanip>
 #include <iterator>
+#include <sstream>
 
+#include "cardiac/heart/beat_instants.hpp"
 #include "cardiac/heart/beat_system.hpp"
 #include "cardiac/heart/checkpoint.hpp"
+#include "cardiac/heart/statics.hpp"
 
 #include <cardiac/core/units.hpp>
 #include <polyaffine/core/error.hpp>
@@ -14,6 +18,18 @@
 namespace cardiac {
 
 using polyaffine::Vector;
+
+Vector circulation_states(const HeartState& s) {
+  if (s.loop.size() == 0) return Vector{{s.volume_mm3, s.capacitor_pressure_kPa}};
+  Vector out(3 + s.loop.size());
+  out << s.volume_mm3, s.right_volume_mm3, s.capacitor_pressure_kPa, s.loop;
+  return out;
+}
+
+Vector cavity_pressures(const HeartState& s) {
+  if (s.loop.size() == 0) return Vector{{s.pressure_kPa}};
+  return Vector{{s.pressure_kPa, s.right_pressure_kPa}};
+}
 
 LeftHeartLoop left_heart_loop(const protocol::Circulation& c) {
   LeftHeartLoop loop;
@@ -50,33 +66,13 @@ TwoSidedLoop two_sided_loop(const protocol::Circulation& c) {
   return loop;
 }
 
-namespace {
-
-bool stop_wanted(const RunControl& control) {
-  return control.stop_reason && !control.stop_reason().empty();
-}
-
-std::string why(const polyaffine::LoadReport& report, const RunControl& control) {
-  if (report.reason == polyaffine::StopReason::interrupted) return control.stop_reason();
-  if (report.reached == 0 && report.last.reason == polyaffine::StopReason::singular_tangent)
-    return "the functions of the model are not independent (two control nodes in one place?), or a part of "
-           "the wall is held by nothing";
-  return "no equilibrium was found beyond it (" + polyaffine::to_string(report.last.reason) +
-         "): a limit load, buckling, or a load too large for the tissue";
-}
-
-void warn_of_instability(const polyaffine::LoadReport& report, const std::string& load, HeartPath& path) {
-  if (!report.unstable_from) return;
-  path.warnings.push_back("from " + std::to_string(100 * *report.unstable_from) + " % of the " + load +
-                          " on the equilibrium is no minimum of the energy: the wall may buckle, and there "
-                          "may be other solutions");
-}
-
-std::shared_ptr<const CirculationModel> circulation_model(const Ventricle& ventricle,
+std::shared_ptr<const CirculationModel> circulation_model(bool two_ventricles,
                                                           const protocol::Circulation& c) {
-  if (ventricle.right_cavity) return std::make_shared<TwoSidedCirculation>(two_sided_loop(c));
+  if (two_ventricles) return std::make_shared<TwoSidedCirculation>(two_sided_loop(c));
   return std::make_shared<LeftHeartCirculation>(left_heart_loop(c));
 }
+
+namespace {
 
 // The state of a wall filled to the atrial pressures.
 HeartState filled_state(const Ventricle& ventricle, const protocol::Circulation& c, const Vector& at) {
@@ -104,15 +100,10 @@ bool fill(const Ventricle& ventricle, const protocol::Circulation& circulation, 
   path.cuts += report.cuts;
   warn_of_instability(report, "filling pressure", path);
   if (report.converged()) return true;
-  path.stop_reason = "filling stopped at " +
-                     std::to_string(report.reached * circulation.filling_pressure_mmHg) + " of " +
-                     std::to_string(circulation.filling_pressure_mmHg) + " mmHg: " + why(report, control);
+  path.stop_reason =
+      "filling stopped at " + std::to_string(report.reached * circulation.filling_pressure_mmHg) + " of " +
+      std::to_string(circulation.filling_pressure_mmHg) + " mmHg: " + why_it_stopped(report, control);
   return false;
-}
-
-// Time steps of one beat, some ten times as many as one needs.
-int most_steps(const protocol::Time& time, double period_ms) {
-  return std::max(2000, static_cast<int>(10 * std::ceil(period_ms / time.max_step_ms)));
 }
 
 double stroke_volume(const std::vector<HeartState>& steps) {
@@ -121,23 +112,50 @@ double stroke_volume(const std::vector<HeartState>& steps) {
   return high->volume_mm3 - low->volume_mm3;
 }
 
-// The limit cycle is reached when the stroke volume, the volumes and the pressures of the vessels come back.
-bool closed(const HeartPath& path, double tolerance_percent) {
+// The limit cycle is reached when the last beat is near the one that would repeat itself, and the beat before
+// confirms it.
+bool closed(const HeartPath& path, int volumes, double tolerance_percent) {
   const auto& sv = path.stroke_volumes_mm3;
-  if (sv.size() < 2) return false;
-  const double allowed = tolerance_percent / 100 * std::abs(sv.back());
-  const HeartState &first = path.steps.front(), &last = path.steps.back();
-  return std::abs(sv.back() - sv[sv.size() - 2]) <= allowed &&
-         std::abs(last.volume_mm3 - first.volume_mm3) <= allowed &&
-         std::abs(last.right_volume_mm3 - first.right_volume_mm3) <= allowed &&
-         std::abs(last.capacitor_pressure_kPa - first.capacitor_pressure_kPa) <=
-             tolerance_percent / 100 * last.capacitor_pressure_kPa &&
-         ((last.loop - first.loop).array().abs() <= tolerance_percent / 100 * last.loop.array()).all();
+  return sv.size() > 1 &&
+         std::abs(sv.back() - sv[sv.size() - 2]) <= tolerance_percent / 100 * std::abs(sv.back()) &&
+         estimate_limit_cycle(path.cycle, volumes).distance_percent <= tolerance_percent;
+}
+
+std::string unclosed_warning(const HeartPath& path, int volumes, const protocol::Time& time) {
+  std::ostringstream out;
+  out << "the pressure-volume loop did not close to " << time.limit_cycle_tolerance_percent
+      << " % (time.limit_cycle_tolerance_percent) in " << path.beats << " beats: the last is ";
+  if (path.cycle.size() > 1)
+    out << "about " << std::setprecision(2) << estimate_limit_cycle(path.cycle, volumes).distance_percent
+        << " % ";
+  out << "from the one that would repeat itself; ";
+  if (is_noise(path.cycle, volumes))
+    out << "from beat to beat this is noise of the time integration and comes no nearer: lower "
+           "time.relative_tolerance ("
+        << time.relative_tolerance << "), time.absolute_tolerance_mm (" << time.absolute_tolerance_mm
+        << ") and time.absolute_tolerance_mmHg (" << time.absolute_tolerance_mmHg << ")";
+  else
+    out << "raise time.max_beats";
+  return out.str();
+}
+
+// Begins the next beat with the vessels' pressures of the estimated limit, from what the last one ended with.
+void extrapolate(BeatSystem& system, double t, const HeartPath& path, Vector& y, Vector& rate) {
+  const CycleEstimate limit = estimate_limit_cycle(path.cycle, system.num_cavities());
+  if (!limit.extrapolated) return;
+  Vector wanted = limit.pressures_kPa;
+  if (system.circulation().is_closed()) {
+    const Vector compliances = system.circulation().compliances().tail(wanted.size());
+    wanted.array() += compliances.dot(system.vessels(y) - wanted) / compliances.sum();
+  }
+  system.vessels(y) = wanted;
+  system.restart_consistently(t, y, rate);
 }
 
 // The beat that the path has come to, from and to (y, rate). False, with the reason, when it stopped.
-bool run_beat(BeatSystem& system, const Protocol& protocol, double period, const RunControl& control,
-              Vector& y, Vector& rate, HeartPath& path) {
+bool run_beat(BeatSystem& system, const Protocol& protocol, const ContractionField& contraction,
+              const RunControl& control, Vector& y, Vector& rate, HeartPath& path) {
+  const double period = contraction.curve.period_ms(), onset_ms = contraction_onset_ms(contraction);
   const int beat = path.beats;
   const double begin = beat * period, end = (beat + 1) * period;
   const double interval = protocol.output.interval_ms;
@@ -146,13 +164,17 @@ bool run_beat(BeatSystem& system, const Protocol& protocol, double period, const
   path.steps = {system.unpack(begin, begin, y)};
   path.outputs = path.steps;
   polyaffine::DaeIntegrator ida(system, system.options(protocol.time), begin, y, rate);
+  BeatInstants instants(system, begin, onset_ms, y, path);
+  CycleBeat cycle{system.states(y), {}, 0};
   std::string stop;
   while (stop.empty() && ida.time() < end - 1e-9 * period) {
+    const double from = ida.time();
     if (ida.step(end) == polyaffine::DaeStatus::failed) {
       stop = ida.failure();
       break;
     }
     path.steps.push_back(system.unpack(ida.time(), begin, ida.y()));
+    instants.follow(ida, from);
     for (double t = begin + interval * static_cast<double>(path.outputs.size());
          t <= ida.time() + 1e-9 && t <= end + 1e-9;
          t = begin + interval * static_cast<double>(path.outputs.size())) {
@@ -165,9 +187,7 @@ bool run_beat(BeatSystem& system, const Protocol& protocol, double period, const
     if (control.progress)
       control.progress("beat " + std::to_string(beat + 1), ida.time() / (period * protocol.time.max_beats));
     if (std::ssize(path.steps) > most)
-      stop = std::to_string(most) + " time steps in one beat; the last was " +
-             std::to_string(path.steps.back().time_ms - path.steps.end()[-2].time_ms) +
-             " ms; a softer tissue, more viscosity or larger tolerances (time.*) let it go on";
+      stop = too_many_steps(most, path.steps.back().time_ms - path.steps.end()[-2].time_ms);
     else if (stop_wanted(control))
       stop = control.stop_reason();
   }
@@ -179,7 +199,13 @@ bool run_beat(BeatSystem& system, const Protocol& protocol, double period, const
   path.newton_iterations += static_cast<int>(counters.newton_iterations);
   system.cost().error_test_failures += counters.error_test_failures;
   system.cost().convergence_failures += counters.convergence_failures;
-  if (stop.empty()) return true;
+  if (stop.empty()) {
+    cycle.end = system.states(y);
+    cycle.stroke_mm3 = stroke_volume(path.steps);
+    path.stroke_volumes_mm3.push_back(cycle.stroke_mm3);
+    path.cycle.push_back(std::move(cycle));
+    return true;
+  }
   path.stop_reason =
       "stopped at " + std::to_string(ida.time()) + " ms (beat " + std::to_string(beat + 1) + "): " + stop;
   return false;
@@ -205,12 +231,18 @@ void take_up(const Checkpoint& from, BeatSystem& system, Vector& y, Vector& rate
   if (from.y.size() != system.size())
     throw polyaffine::InputError("the checkpoint holds " + std::to_string(from.y.size()) +
                                  " unknowns, expected " + std::to_string(system.size()));
+  for (const CycleBeat& beat : from.cycle)
+    if (beat.start.size() != system.circulation().num_states())
+      throw polyaffine::InputError("the checkpoint's beats hold " + std::to_string(beat.start.size()) +
+                                   " states of the circulation, expected " +
+                                   std::to_string(system.circulation().num_states()));
   y = from.y;
   rate = from.rate;
   path.beats = from.beats;
   path.time_steps = from.time_steps;
   path.newton_iterations = from.newton_iterations;
   path.stroke_volumes_mm3 = from.stroke_volumes_mm3;
+  path.cycle = from.cycle;
   path.min_det_F = from.min_det_F;
   path.max_det_F = from.max_det_F;
   system.cost() = from.cost;
@@ -221,6 +253,7 @@ Checkpoint checkpoint(const HeartPath& path, const BeatSystem& system, const Vec
           path.time_steps,
           path.newton_iterations,
           path.stroke_volumes_mm3,
+          path.cycle,
           path.min_det_F,
           path.max_det_F,
           system.cost(),
@@ -232,93 +265,27 @@ Checkpoint checkpoint(const HeartPath& path, const BeatSystem& system, const Vec
 
 HeartPath run_beats(const Ventricle& ventricle, const Protocol& protocol, const RunControl& control) {
   const double tolerance = protocol.time.limit_cycle_tolerance_percent;
-  BeatSystem system(ventricle, circulation_model(ventricle, *protocol.circulation));
+  BeatSystem system(ventricle, circulation_model(ventricle.right_cavity != nullptr, *protocol.circulation));
+  const int cavities = system.num_cavities();
   HeartPath path;
   ++path.built["circulation"];
   Vector y, rate;
-  bool going_on = true;
+  bool going_on = true, is_closed = false;
   if (control.resume)
     take_up(*control.resume, system, y, rate, path);
   else
     going_on = begin_beats(ventricle, protocol, control, system, y, rate, path);
   while (going_on && !path.completed) {
     if (control.on_checkpoint) control.on_checkpoint(checkpoint(path, system, y, rate));
-    going_on = run_beat(system, protocol, ventricle.contraction->curve.period_ms(), control, y, rate, path);
+    going_on = run_beat(system, protocol, *ventricle.contraction, control, y, rate, path);
     if (!going_on) break;
     ++path.beats;
-    path.stroke_volumes_mm3.push_back(stroke_volume(path.steps));
-    path.completed = closed(path, tolerance) || path.beats == protocol.time.max_beats;
+    is_closed = closed(path, cavities, tolerance);
+    path.completed = is_closed || path.beats == protocol.time.max_beats || is_noise(path.cycle, cavities);
+    if (!path.completed) extrapolate(system, path.simulated_ms, path, y, rate);
   }
   path.cost = system.cost();
-  if (path.completed && !closed(path, tolerance))
-    path.warnings.push_back("the pressure-volume loop did not close to " + std::to_string(tolerance) +
-                            " % in " + std::to_string(path.beats) + " beats; raise time.max_beats");
-  return path;
-}
-
-HeartPath run_prescribed(const Ventricle& ventricle, const Protocol& protocol, const RunControl& control) {
-  HeartPath path;
-  Vector c = Vector::Zero(ventricle.num_coefficients());
-  const double duration = protocol.time.duration_ms;
-  const double target = protocol.cavities ? protocol.cavities->pressure_mmHg * kPa_per_mmHg : 0.0;
-  const double right_target = protocol.cavities && ventricle.right_cavity
-                                  ? protocol.cavities->right_pressure_mmHg * kPa_per_mmHg
-                                  : 0.0;
-  const auto system = ventricle.make_system();
-  const auto follow = [&](const polyaffine::EquilibriumProblem& problem,
-                          const std::function<double(double)>& share,
-                          const std::function<double(double)>& time) {
-    polyaffine::LoadOptions options;
-    options.first_step = options.largest_step = 1.0 / protocol.time.load_steps;
-    const auto record = [&](double load, const Vector& at) {
-      HeartState state{time(load), at, ventricle.cavity ? ventricle.cavity_volume(at) : 0.0,
-                       share(load) * target, 0};
-      if (ventricle.right_cavity) {
-        state.right_volume_mm3 = ventricle.right_cavity->evaluate({at}).value;
-        state.right_pressure_kPa = share(load) * right_target;
-      }
-      path.outputs.push_back(std::move(state));
-      const auto wall = ventricle.wall->evaluate({at, problem.terms.front().state(load)});
-      path.min_det_F = std::min(path.min_det_F, wall.min_det);
-      path.max_det_F = std::max(path.max_det_F, wall.max_det);
-      if (control.progress) control.progress("loading", load);
-    };
-    if (path.outputs.empty()) record(0, c);
-    options.on_step = record;
-    options.interrupted = [&] { return stop_wanted(control); };
-    const auto report = polyaffine::load_stepping(problem, *system, c, options);
-    path.time_steps += report.steps;
-    path.newton_iterations += report.iterations;
-    path.cuts += report.cuts;
-    warn_of_instability(report, "load", path);
-    if (!report.converged())
-      path.stop_reason =
-          "stopped at " + std::to_string(100 * report.reached) + " % of the load: " + why(report, control);
-    return report.converged();
-  };
-
-  const Vector none;
-  const Vector at_rest = ventricle.contraction ? ventricle.contraction->tension(0) : none;
-  const WallLoad unloaded{0, Vector::Zero(at_rest.size())};
-  const WallLoad loaded{target, at_rest, right_target};
-  const auto raising = loaded_ventricle(ventricle, unloaded, loaded);
-  const bool contracts = ventricle.contraction != nullptr;
-  path.completed = follow(
-      raising, [](double load) { return load; },
-      [&](double load) { return contracts ? 0.0 : load * duration; });
-  if (path.completed && contracts) {
-    Vector tension;
-    auto problem = loaded_ventricle(ventricle, loaded, loaded);
-    problem.terms.front().state = [&](double load) {
-      tension = ventricle.contraction->tension(load * duration);
-      return polyaffine::PointState(tension.data(), tension.size());
-    };
-    path.outputs.erase(path.outputs.begin(), path.outputs.end() - 1);
-    path.completed = follow(
-        problem, [](double) { return 1.0; }, [&](double load) { return load * duration; });
-  }
-  path.steps = path.outputs;
-  path.simulated_ms = path.outputs.back().time_ms;
+  if (path.completed && !is_closed) path.warnings.push_back(unclosed_warning(path, cavities, protocol.time));
   return path;
 }
 

@@ -77,12 +77,40 @@ struct SegmentInfo {
   std::optional<double> activation_ms;  ///< mean activation time; none without activation
 };
 
+/// What passed through a valve in a beat, mL: forwards, and backwards through its leak, also in percent of
+/// what went forwards.
+struct ValveVolumes {
+  std::string name;
+  double forward_mL = 0, regurgitant_mL = 0, regurgitant_percent = 0;
+};
+
+/// The circulation of one ventricle over the last beat. Arterial: behind the outlet valve; venous: before the
+/// inlet valve.
+struct Haemodynamics {
+  double cardiac_output_L_per_min = 0;                 ///< what leaves the ventricle and does not come back
+  double stroke_work_mmHg_mL = 0, stroke_work_mJ = 0;  ///< area of the pressure-volume loop
+  double dp_dt_max_mmHg_per_s = 0, dp_dt_min_mmHg_per_s = 0;  ///< of the ventricle's pressure
+  double arterial_mean_mmHg = 0, arterial_systolic_mmHg = 0, arterial_diastolic_mmHg = 0;
+  double venous_mean_mmHg = 0;
+  std::vector<ValveVolumes> valves;  ///< inlet, outlet
+};
+
+/// Columns with their names, all of the same length.
+struct CirculationTable {
+  std::vector<std::string> columns;
+  std::vector<std::vector<double>> values;  ///< one list a column
+};
+
 struct VentricleSummary {
   std::string name;  ///< "lv" or "rv"
   double edv_mL = 0, esv_mL = 0, sv_mL = 0, ef_percent = 0;
   double peak_pressure_mmHg = 0, edp_mmHg = 0;
   double ed_time_ms = 0, es_time_ms = 0;
   std::vector<CavitySample> samples;  ///< the last beat
+  std::string ed_is{}, es_is{};       ///< what end diastole and end systole are here, in words (KeyStates)
+  /// What leaks change of the volume in phases called isovolumetric.
+  double isovolumetric_contraction_change_mL = 0, isovolumetric_relaxation_change_mL = 0;
+  std::optional<Haemodynamics> haemodynamics{};  ///< of a whole beat
 };
 
 /// What the time integration of the beats took: calls, and the seconds spent in them.
@@ -113,6 +141,7 @@ struct VerificationInstant {
 struct BeatResult {
   std::string method;     ///< "polyaffine" or "fem"
   bool has_beat = false;  ///< false: a prescribed pressure without circulation
+  bool has_contraction = false;
   int mesh_vertices = 0, mesh_tets = 0, dofs = 0, control_nodes = 0, integration_points = 0;
   int beats = 0, time_steps = 0, newton_iterations = 0;
   double simulated_time_s = 0;
@@ -123,6 +152,7 @@ struct BeatResult {
   std::vector<FrameFunction> frame_functions;  ///< empty unless output.frames asks for their unknowns
   std::vector<Instant> instants;               ///< the last beat, time counted from its start
   std::vector<VentricleSummary> ventricles;
+  CirculationTable circulation;  ///< the last beat; empty without one. Not read back from files
   GlobalStrain strain;                       ///< of the left ventricle at end systole
   std::optional<GlobalStrain> right_strain;  ///< of the right free wall at the same time
   double min_det_F = 1, max_det_F = 1;

@@ -166,31 +166,36 @@ HeartState BeatSystem::unpack(double t, double beat_start_ms, const Vector& y) c
 }
 
 Vector BeatSystem::start_consistently(HeartState& state) {
-  const int m = num_cavities_;
   Vector y = pack(state);
   Vector rate = Vector::Zero(size());
+  restart_consistently(state.time_ms, y, rate);
+  state = unpack(state.time_ms, 0, y);
+  return rate;
+}
+
+void BeatSystem::restart_consistently(double t, Vector& y, Vector& rate) {
+  const int m = num_cavities_;
   const auto circulate = [&] { return circulation_->rates(states(y), pressures(y)); };
   rate.tail(num_states_ - m) = circulate().values.tail(num_states_ - m);
   // So large that the elastic part of K + αC does not count.
   constexpr double kAlpha = 1e8;
-  if (!factorise(state.time_ms, y, rate, kAlpha)) return rate;
+  if (!factorise(t, y, rate, kAlpha)) return;
   const polyaffine::Matrix Z = kAlpha * solved_gradient_;
   const polyaffine::Matrix compliance = volume_gradient_.transpose() * Z;
+  const Vector moving = rate.segment(num_c_, m);
   Vector delta = Vector::Zero(m);
   for (int k = 0; k < 50; ++k) {
     const auto flows = circulate();
     const Vector step = (compliance - flows.by_pressures.topRows(m))
                             .partialPivLu()
-                            .solve(Vector(compliance * delta - flows.values.head(m)));
+                            .solve(Vector(compliance * delta + moving - flows.values.head(m)));
     delta -= step;
     y.segment(num_c_ + m, m) -= step;
     if (step.norm() <= 1e-14 * y.segment(num_c_ + m, m).norm()) break;
   }
-  state = unpack(state.time_ms, 0, y);
-  rate.head(num_c_) = Z * delta;
-  rate.segment(num_c_, m) = compliance * delta;
+  rate.head(num_c_) += Z * delta;
+  rate.segment(num_c_, m) += compliance * delta;
   rate.tail(num_states_ - m) = circulate().values.tail(num_states_ - m);
-  return rate;
 }
 
 polyaffine::DaeOptions BeatSystem::options(const protocol::Time& time) const {

@@ -30,10 +30,24 @@ class BeatSystem : public polyaffine::DaeSystem {
   /// solved by Newton's method. Without viscosity δ = 0 and ċ is the elastic motion at the rate V̇. On failure
   /// (a singular tangent) the wall keeps its rest.
   polyaffine::Vector start_consistently(HeartState& state);
+  /// The same from a wall in motion: moves the cavity pressures of y, with its rate, to where the flows of
+  /// circulation states that were changed just now meet the motion, and changes the rate.
+  void restart_consistently(double t, polyaffine::Vector& y, polyaffine::Vector& rate);
   /// Tolerances per unknown. The error norm is a mean over all unknowns: volume and pressures are weighted so
   /// that they count as much as the whole wall, however many coefficients it has. Newton's iterations meet
   /// the pressures of the cavities to their tolerance; the error test leaves them out.
   polyaffine::DaeOptions options(const protocol::Time& time) const;
+
+  const CirculationModel& circulation() const { return *circulation_; }
+  int num_cavities() const { return num_cavities_; }
+  polyaffine::Vector states(const polyaffine::Vector& y) const;      ///< of the circulation: V, then z
+  polyaffine::Vector pressures(const polyaffine::Vector& y) const {  ///< of the cavities
+    return y.segment(num_c_ + num_cavities_, num_cavities_);
+  }
+  /// The vessels' pressures z, kPa, to be changed.
+  Eigen::VectorBlock<polyaffine::Vector> vessels(polyaffine::Vector& y) const {
+    return y.tail(num_states_ - num_cavities_);
+  }
 
   /// Range of det F over the points in the state evaluated last; after a step that is the accepted one, but
   /// for the last Newton correction.
@@ -45,11 +59,6 @@ class BeatSystem : public polyaffine::DaeSystem {
 
  private:
   const polyaffine::Vector& tension(double t);
-
-  polyaffine::Vector states(const polyaffine::Vector& y) const;  // V, then z
-  polyaffine::Vector pressures(const polyaffine::Vector& y) const {
-    return y.segment(num_c_ + num_cavities_, num_cavities_);
-  }
 
   const Ventricle& ventricle_;
   std::shared_ptr<const CirculationModel> circulation_;

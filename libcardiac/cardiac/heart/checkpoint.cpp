@@ -65,6 +65,8 @@ Checkpoint checkpoint_of(const Json& json, const std::filesystem::path& file) {
   out.time_steps = count("time_steps");
   out.newton_iterations = count("newton_iterations");
   out.stroke_volumes_mm3 = json.at("stroke_volumes_mm3").get<std::vector<double>>();
+  for (const Json& beat : json.at("cycle"))
+    out.cycle.push_back({vector_of(beat.at("start")), vector_of(beat.at("end")), beat.at("stroke_mm3")});
   out.min_det_F = json.at("min_det_F");
   out.max_det_F = json.at("max_det_F");
   out.cost.residuals = count("residuals");
@@ -80,6 +82,10 @@ Checkpoint checkpoint_of(const Json& json, const std::filesystem::path& file) {
 }  // namespace
 
 std::string checkpoint_text(const Checkpoint& at, const CheckpointOrigin& origin) {
+  Json cycle = Json::array();
+  for (const CycleBeat& beat : at.cycle)
+    cycle.push_back(
+        {{"start", numbers(beat.start)}, {"end", numbers(beat.end)}, {"stroke_mm3", beat.stroke_mm3}});
   const Json json{{"version", origin.version},
                   {"mesh", origin.mesh},
                   {"protocol", Json::parse(origin.protocol_json)},
@@ -87,6 +93,7 @@ std::string checkpoint_text(const Checkpoint& at, const CheckpointOrigin& origin
                   {"time_steps", at.time_steps},
                   {"newton_iterations", at.newton_iterations},
                   {"stroke_volumes_mm3", at.stroke_volumes_mm3},
+                  {"cycle", cycle},
                   {"min_det_F", at.min_det_F},
                   {"max_det_F", at.max_det_F},
                   {"residuals", at.cost.residuals},
@@ -114,6 +121,11 @@ Checkpoint read_checkpoint(const std::filesystem::path& file, const CheckpointOr
     if (out.y.size() != out.rate.size()) throw InputError(file.string() + ": y and rate differ in length");
     if (std::ssize(out.stroke_volumes_mm3) != out.beats)
       throw InputError(file.string() + ": beats and stroke_volumes_mm3 differ in number");
+    if (std::ssize(out.cycle) != out.beats)
+      throw InputError(file.string() + ": beats and cycle differ in number");
+    for (const CycleBeat& beat : out.cycle)
+      if (beat.start.size() != out.cycle.front().start.size() || beat.end.size() != beat.start.size())
+        throw InputError(file.string() + ": the beats of cycle differ in length");
     return out;
   } catch (const Json::exception& error) {
     throw InputError(file.string() + ": found a damaged checkpoint (" + error.what() + ")");

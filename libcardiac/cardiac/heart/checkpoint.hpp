@@ -13,6 +13,7 @@ namespace cardiac {
 struct Checkpoint {
   int beats = 0, time_steps = 0, newton_iterations = 0;  ///< so far, and so the rest
   std::vector<double> stroke_volumes_mm3;
+  std::vector<CycleBeat> cycle;  ///< what the limit is estimated from
   double min_det_F = 1, max_det_F = 1;
   SolveCost cost;
   polyaffine::Vector y, rate;  ///< of BeatSystem

@@ -5,6 +5,7 @@
 
 #include <cardiac/core/units.hpp>
 #include <cardiac/heart/frame_functions.hpp>
+#include <cardiac/heart/haemodynamics.hpp>
 #include <cardiac/heart/motion.hpp>
 
 namespace cardiac {
@@ -19,7 +20,7 @@ namespace {
 constexpr double kCrushed = 0.5;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-VentricleSummary summarise(const HeartPath& path, const KeySteps& key, bool right, bool has_beat) {
+VentricleSummary summarise(const HeartPath& path, const KeyStates& key, bool right, bool has_beat) {
   const auto volume_mL = [right](const HeartState& s) {
     return (right ? s.right_volume_mm3 : s.volume_mm3) / mm3_per_mL;
   };
@@ -36,14 +37,18 @@ VentricleSummary summarise(const HeartPath& path, const KeySteps& key, bool righ
         {s.time_ms, volume_mL(s), pressure_mmHg(s), key.phases.empty() ? Phase::filling : key.phases[k]});
   }
   out.edv_mL = out.esv_mL = out.sv_mL = out.ef_percent = out.edp_mmHg = kNone;
-  out.ed_time_ms = path.steps[key.ed].time_ms;
-  out.es_time_ms = path.steps[key.es].time_ms;
-  if (!has_beat) return out;
-  out.edv_mL = volume_mL(path.steps[key.ed]);
-  out.esv_mL = volume_mL(path.steps[key.es]);
+  out.ed_time_ms = key.ed.time_ms;
+  out.es_time_ms = key.es.time_ms;
+  out.ed_is = key.ed_is;
+  out.es_is = key.es_is;
+  if (!has_beat && !(path.contraction_begins && key.largest_mm3 > 0)) return out;
+  out.edv_mL = key.largest_mm3 / mm3_per_mL;
+  out.esv_mL = key.smallest_mm3 / mm3_per_mL;
+  out.isovolumetric_contraction_change_mL = key.contraction_change_mm3 / mm3_per_mL;
+  out.isovolumetric_relaxation_change_mL = key.relaxation_change_mm3 / mm3_per_mL;
   out.sv_mL = out.edv_mL - out.esv_mL;
   out.ef_percent = 100 * out.sv_mL / out.edv_mL;
-  out.edp_mmHg = pressure_mmHg(path.steps[key.ed]);
+  out.edp_mmHg = pressure_mmHg(key.ed);
   return out;
 }
 
@@ -68,39 +73,9 @@ std::vector<SegmentInfo> segment_info(const Ventricle& ventricle) {
   return out;
 }
 
-std::vector<Phase> phases(const HeartPath& path, const protocol::Circulation& circulation, bool right) {
-  const auto n = static_cast<Eigen::Index>(path.steps.size());
-  Vector before(n), pressure(n), behind(n);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const HeartState& s = path.steps[k];
-    pressure[k] = right ? s.right_pressure_kPa : s.pressure_kPa;
-    behind[k] = right ? s.loop[0] : s.capacitor_pressure_kPa;
-    if (s.loop.size() > 0) before[k] = right ? s.loop[2] : s.loop[1];
-  }
-  if (path.steps.front().loop.size() == 0)
-    return classify_phases(left_heart_loop(circulation), pressure, behind);
-  const TwoSidedLoop loop = two_sided_loop(circulation);
-  const auto& side = right ? loop.right : loop.left;
-  return classify_phases(side.inlet, side.outlet, before, pressure, behind);
-}
-
-KeySteps find_key_steps(const HeartPath& path, const Protocol& protocol, bool right) {
-  KeySteps out;
-  if (path.steps.empty()) return out;
-  out.es = path.steps.size() - 1;
-  if (!protocol.circulation) return out;
-  out.phases = phases(path, *protocol.circulation, right);
-  for (std::size_t k = 1; k < out.phases.size(); ++k) {
-    if (out.phases[k] == Phase::isovolumetric_contraction && out.phases[k - 1] == Phase::filling)
-      out.ed = k - 1;
-    if (out.phases[k] != Phase::ejection && out.phases[k - 1] == Phase::ejection) out.es = k - 1;
-  }
-  return out;
-}
-
 void add_motion(const Ventricle& ventricle, const std::vector<ControlNode>& nodes, const Protocol& protocol,
-                const HeartPath& path, const KeySteps& key, BeatResult& out) {
-  const Motion motion(ventricle, nodes, out.segments, path.steps[key.ed].c);
+                const HeartPath& path, const KeyStates& key, BeatResult& out) {
+  const Motion motion(ventricle, nodes, out.segments, key.ed.c);
   out.nodes = motion.nodes();
   if (protocol.output.frames) out.frame_functions = frame_functions(ventricle.discretisation);
   for (const HeartState& state : path.outputs) {
@@ -108,20 +83,12 @@ void add_motion(const Ventricle& ventricle, const std::vector<ControlNode>& node
     for (std::size_t k = 0; k < out.frame_functions.size(); ++k)
       out.instants.back().frame_unknowns.emplace_back(state.c.segment<3>(3 * static_cast<Eigen::Index>(k)));
   }
-  const Instant es = motion.instant(path.steps[key.es].time_ms, path.steps[key.es].c);
+  const Instant es = motion.instant(key.es.time_ms, key.es.c);
   out.strain = es.global.front();
   if (es.global.size() > 1) out.right_strain = es.global[1];
 }
 
 }  // namespace
-
-KeySteps key_steps(const HeartPath& path, const Protocol& protocol) {
-  return find_key_steps(path, protocol, false);
-}
-
-KeySteps right_key_steps(const HeartPath& path, const Protocol& protocol) {
-  return find_key_steps(path, protocol, true);
-}
 
 std::vector<ControlNode> segment_nodes(const Anatomy& anatomy, const Protocol& protocol) {
   FrameLayout layout = protocol_layout(anatomy, protocol);
@@ -136,6 +103,7 @@ BeatResult describe_path(const Ventricle& ventricle, const std::vector<ControlNo
   const auto& d = ventricle.discretisation;
   out.method = d.sparse ? "fem" : "polyaffine";
   out.has_beat = protocol.circulation.has_value();
+  out.has_contraction = protocol.contraction.has_value();
   out.mesh_vertices = anatomy.mesh.num_points();
   out.mesh_tets = anatomy.mesh.num_tets();
   out.dofs = d.num_unknowns;
@@ -160,10 +128,17 @@ BeatResult describe_path(const Ventricle& ventricle, const std::vector<ControlNo
   out.segments = segment_info(told);
   if (path.steps.empty()) return out;
 
-  const KeySteps key = key_steps(path, protocol);
+  const KeyStates key = key_states(path, protocol);
   out.ventricles.push_back(summarise(path, key, false, out.has_beat));
   if (ventricle.right_cavity)
-    out.ventricles.push_back(summarise(path, right_key_steps(path, protocol), true, out.has_beat));
+    out.ventricles.push_back(summarise(path, key_states(path, protocol, 1), true, out.has_beat));
+  for (int k = 0; k < static_cast<int>(out.ventricles.size()); ++k)
+    for (std::string& warning : valve_warnings(path, protocol, k)) out.warnings.push_back(std::move(warning));
+  if (out.has_beat) {
+    for (std::size_t k = 0; k < out.ventricles.size(); ++k)
+      out.ventricles[k].haemodynamics = haemodynamics(path, protocol, static_cast<int>(k));
+    out.circulation = circulation_table(path, protocol);
+  }
   add_motion(ventricle, nodes, protocol, path, key, out);
   return out;
 }

@@ -3,18 +3,9 @@
 #include <cardiac/anatomy/control_nodes.hpp>
 #include <cardiac/heart/beat.hpp>
 #include <cardiac/heart/beat_result.hpp>
+#include <cardiac/heart/key_states.hpp>
 
 namespace cardiac {
-
-/// Indices of end diastole and end systole in the steps of a path: the last sample of filling and the last
-/// sample of ejection by the valves; without circulation the first and the last state.
-struct KeySteps {
-  std::size_t ed = 0, es = 0;
-  std::vector<Phase> phases;  ///< of every step; empty without circulation
-};
-KeySteps key_steps(const HeartPath& path, const Protocol& protocol);
-/// The same of the right ventricle, by its own valves; only with two ventricles.
-KeySteps right_key_steps(const HeartPath& path, const Protocol& protocol);
 
 /// A node for the affine map of every AHA segment: its control node where the protocol's frames belong to the
 /// segments, otherwise the one it would have then.

@@ -203,12 +203,10 @@ double rule_error(const Ventricle& ventricle, const HeartState& state, double cl
 }
 
 double rule_error(const Ventricle& ventricle, const Protocol& protocol, const HeartPath& path) {
-  const KeySteps key = key_steps(path, protocol);
+  const KeyStates key = key_states(path, protocol);
   double worst = 0;
-  for (const std::size_t step : {protocol.circulation ? key.ed : key.es, key.es}) {
-    const HeartState& state = path.steps[step];
-    worst = std::max(worst, rule_error(ventricle, state, path.beat_start_ms + state.time_ms));
-  }
+  for (const HeartState* state : {protocol.circulation ? &key.ed : &key.es, &key.es})
+    worst = std::max(worst, rule_error(ventricle, *state, path.beat_start_ms + state->time_ms));
   return worst;
 }
 

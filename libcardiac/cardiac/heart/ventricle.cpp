@@ -7,6 +7,7 @@
 #include <cardiac/anatomy/right_ventricle.hpp>
 #include <cardiac/heart/trained_rule.hpp>
 #include <cardiac/heart/vertex_displacement.hpp>
+#include <cardiac/protocol/contraction_time.hpp>
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/energy/springs.hpp>
 #include <polyaffine/material/signed_volume.hpp>
@@ -77,19 +78,12 @@ std::shared_ptr<const ContractionField> build_contraction(const Anatomy& anatomy
                                                           const polyaffine::WallPoints& points,
                                                           const RegionFactors& factors, BuildCount& built) {
   ++built["contraction"];
-  const auto& c = *protocol.contraction;
-  const BestelParameters parameters{c.activation_rate_per_s / 1000,
-                                    c.relaxation_rate_per_s / 1000,
-                                    c.contractility_kPa,
-                                    0,
-                                    c.activation_duration_ms,
-                                    c.switch_width_ms};
-  const double period =
-      protocol.circulation ? 60000 / protocol.time.heart_rate_bpm : protocol.time.duration_ms;
   ++built["activation"];
   const Vector at_vertices = vertex_activation(anatomy, protocol);
-  ContractionField out{TensionCurve(parameters, period), at_points(anatomy, at_vertices, points),
-                       Vector::Ones(static_cast<Eigen::Index>(points.tet.size())), at_vertices};
+  ContractionField out{
+      TensionCurve(bestel_parameters(*protocol.contraction, protocol.time), beat_ms(protocol.time)),
+      at_points(anatomy, at_vertices, points), Vector::Ones(static_cast<Eigen::Index>(points.tet.size())),
+      at_vertices};
   if (!factors.tension.empty()) {
     out.scale = Eigen::Map<const Vector>(factors.tension.data(), out.scale.size());
     out.delay_ms += Eigen::Map<const Vector>(factors.delay_ms.data(), out.scale.size());

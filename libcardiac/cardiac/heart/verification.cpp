@@ -80,18 +80,18 @@ Comparison compare(const Ventricle& reduced, const Ventricle& full, const HeartS
 
 std::vector<VerificationInstant> verify_path(const Ventricle& reduced, const Protocol& protocol,
                                              const HeartPath& path) {
-  const KeySteps key = key_steps(path, protocol);
+  const KeyStates key = key_states(path, protocol);
   const Ventricle full = build_ventricle(reduced.anatomy, protocol, protocol::Method::fem);
   const SegmentGauge gauge(*reduced.anatomy->coordinates, full.discretisation.points);
   std::vector<VerificationInstant> out;
   Matrix F_reduced_ed, F_full_ed;
-  for (const auto& [name, step] : {std::pair{"ED", key.ed}, std::pair{"ES", key.es}}) {
-    const HeartState& state = path.steps[step];
+  for (const auto& [name, instant_state] : {std::pair{"ED", &key.ed}, std::pair{"ES", &key.es}}) {
+    const HeartState& state = *instant_state;
     const Comparison at = compare(reduced, full, state, path.beat_start_ms + state.time_ms);
     if (out.empty()) {
       F_reduced_ed = at.F_reduced;
       F_full_ed = at.F_full;
-      if (!protocol.circulation)
+      if (!protocol.contraction)
         F_reduced_ed = F_full_ed = polyaffine::Mat3::Identity().reshaped().replicate(1, F_full_ed.cols());
     }
     // At end diastole the strain is that of the filling, against the reference configuration.

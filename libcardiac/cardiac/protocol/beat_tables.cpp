@@ -63,8 +63,10 @@ Table contraction_table() {
       .key("activation_duration_ms", &Contraction::activation_duration_ms,
            {.unit = "ms",
             .range = above_zero(5000),
-            .meaning = "time from excitation to the onset of relaxation",
-            .source = source + ": 484 − 160 ms"})
+            .meaning = "time from excitation to the onset of relaxation; one that is given is kept at every "
+                       "heart rate",
+            .source = source + ": 484 − 160 ms; Bazett 1920: the square root",
+            .absent = "324 ms √(beat / 800 ms), so that systole follows time.heart_rate_bpm"})
       .key("switch_width_ms", &Contraction::switch_width_ms,
            {.unit = "ms",
             .range = {0.1, 500},
@@ -211,13 +213,16 @@ Table time_table() {
       .key("heart_rate_bpm", &Time::heart_rate_bpm,
            {.unit = "1/min",
             .range = {20, 300},
-            .meaning = "heart rate; a beat lasts 60000/heart_rate_bpm ms"})
+            .meaning = "heart rate; a beat lasts 60000/heart_rate_bpm ms, with a circulation and without"})
       .key("max_beats", &Time::max_beats,
            {.range = {1, 200}, .meaning = "beats after which the run ends even if the loop has not closed"})
       .key("limit_cycle_tolerance_percent", &Time::limit_cycle_tolerance_percent,
            {.unit = "%",
             .range = above_zero(100),
-            .meaning = "the beats end when two of them differ by less than this part of the stroke volume"})
+            .meaning =
+                "the beats end when the last is nearer than this to the one that would repeat itself: "
+                "pressures of the vessels in parts of themselves, volumes of the stroke volume; what is "
+                "left is estimated from how the beats differ, not the difference of two of them"})
       .key("relative_tolerance", &Time::relative_tolerance,
            {.range = {1e-10, 0.1}, .meaning = "relative tolerance of the time integration"})
       .key("absolute_tolerance_mm", &Time::absolute_tolerance_mm,
@@ -236,7 +241,8 @@ Table time_table() {
       .key("duration_ms", &Time::duration_ms,
            {.unit = "ms",
             .range = above_zero(1e6),
-            .meaning = "simulated time of a contraction without circulation (with one: by beats)"});
+            .meaning = "simulated time without circulation, in which the muscle contracts at heart_rate_bpm "
+                       "(with a circulation: by beats)"});
   return table.build();
 }
 

@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include <cardiac/protocol/contraction_time.hpp>
 #include <cardiac/protocol/names.hpp>
 #include <cardiac/protocol/nearest_key.hpp>
 #include <cardiac/protocol/rules.hpp>
@@ -140,6 +141,22 @@ void check_activity(const Protocol& protocol, const Place& place) {
          "found \"file\" beside mesh.shape; expected \"rule\" or a mesh.file with fibres");
 }
 
+// Contraction and relaxation must fit into a beat.
+void check_contraction_time(const Protocol& protocol, const Place& place) {
+  if (!protocol.contraction) return;
+  const double beat = beat_ms(protocol.time);
+  try {
+    check_contraction(bestel_parameters(*protocol.contraction, protocol.time), beat);
+  } catch (const InputError& error) {
+    std::ostringstream text;
+    text << "found " << activation_duration_ms(*protocol.contraction, protocol.time)
+         << " ms, expected less than fills a beat, which lasts " << beat
+         << " ms at time.heart_rate_bpm = " << protocol.time.heart_rate_bpm
+         << " (without the key systole follows the rate): " << error.what();
+    fail(place, "contraction.activation_duration_ms", text.str());
+  }
+}
+
 void check_load(const Protocol& protocol, const Place& place) {
   if (protocol.cavities && protocol.circulation) {
     fail(place, "cavities",
@@ -205,6 +222,8 @@ void fill_presets(Protocol& protocol) {
     reduction.pressure_space = fast ? PressureSpace::segment_depth : PressureSpace::segment_bilinear;
   }
   if (!reduction.border_functions) reduction.border_functions = contrast && aha_tents(reduction);
+  if (auto& contraction = protocol.contraction)
+    contraction->activation_duration_ms = activation_duration_ms(*contraction, protocol.time);
 }
 
 void warn_of_limits(Protocol& protocol, const Place& place) {
@@ -242,6 +261,7 @@ void check_rules(const Protocol& protocol, const Place& place) {
   check_reduction(protocol.reduction, place);
   check_local_bulk_modulus(protocol, place);
   check_activity(protocol, place);
+  check_contraction_time(protocol, place);
   check_load(protocol, place);
   check_regions(protocol.regions, protocol.anatomy.scheme, place);
 }

@@ -10,8 +10,9 @@ namespace cardiac::protocol {
 /// Where a key was given ("file:12"), or where it could be ("file") when it was not; for messages.
 using Place = std::function<std::string(const std::string& path)>;
 
-/// The presets, written out: enrichment and pressure space that the file does not name. The accurate one has
-/// more functions along the wall where regions differ.
+/// The presets, written out: enrichment and pressure space that the file does not name, and the duration of
+/// the contraction by the heart rate. The accurate preset has more functions along the wall where regions
+/// differ.
 void fill_presets(Protocol& protocol);
 
 /// Adds warnings about values that are allowed and lead beyond what the reduced model can tell.

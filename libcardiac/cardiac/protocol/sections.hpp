@@ -96,7 +96,7 @@ struct Contraction {
   double contractility_kPa = 150;
   double activation_rate_per_s = 5;
   double relaxation_rate_per_s = 30;
-  double activation_duration_ms = 324;
+  std::optional<double> activation_duration_ms;  ///< set by the heart rate when the file does not name it
   double switch_width_ms = 5;
   double cross_fibre_fraction = 0;
 };
@@ -142,7 +142,7 @@ struct Time {
   double absolute_tolerance_mmHg = 0.1;
   double max_step_ms = 10;
   int load_steps = 10;       ///< of a static loading
-  double duration_ms = 800;  ///< of a contraction without circulation
+  double duration_ms = 800;  ///< simulated, without circulation
 };
 
 struct Output {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <cardiac/report/figures.hpp>
+#include <cardiac/report/haemodynamics_text.hpp>
 #include <cardiac/report/page_style.hpp>
 #include <cardiac/report/tables.hpp>
 #include <cardiac/report/text.hpp>
@@ -59,6 +60,24 @@ std::string card(const std::string& name, const std::string& value, const std::s
   return html + "</div>\n";
 }
 
+std::string circulation_cards(const VentricleSummary& v) {
+  if (!v.haemodynamics) return "";
+  const Haemodynamics& h = *v.haemodynamics;
+  const bool left = v.name == "lv";
+  std::string html =
+      card("Cardiac output", display_text(h.cardiac_output_L_per_min, 1), "L/min") +
+      card(left ? "Aortic pressure" : "Pulmonary artery pressure",
+           display_text(h.arterial_systolic_mmHg, 0) + "/" + display_text(h.arterial_diastolic_mmHg, 0),
+           "mmHg", "mean " + display_text(h.arterial_mean_mmHg, 0)) +
+      card("Stroke work", display_text(h.stroke_work_mJ, 0), "mJ") +
+      card("dP/dt", display_text(h.dp_dt_max_mmHg_per_s, 0), "mmHg/s",
+           "lowest " + display_text(h.dp_dt_min_mmHg_per_s, 0));
+  const std::vector<std::string> lines = haemodynamics_lines(v);
+  for (std::size_t k = 1; k < lines.size(); ++k)
+    html += "<p class=\"small\">" + escape_markup(lines[k]) + "</p>\n";
+  return html;
+}
+
 std::string ventricle_cards(const VentricleSummary& v, bool has_beat) {
   if (!has_beat) {
     if (v.samples.empty()) return "";
@@ -73,7 +92,7 @@ std::string ventricle_cards(const VentricleSummary& v, bool has_beat) {
          card("Stroke volume", display_text(v.sv_mL, 1), "mL") +
          card("Ejection fraction", display_text(v.ef_percent, 1), "%", typical("50 to 70")) +
          card("Peak pressure", display_text(v.peak_pressure_mmHg, 1), "mmHg", typical("110 to 130")) +
-         card("End-diastolic pressure", display_text(v.edp_mmHg, 1), "mmHg");
+         card("End-diastolic pressure", display_text(v.edp_mmHg, 1), "mmHg") + circulation_cards(v);
 }
 
 std::string headline(const BeatResult& r) {

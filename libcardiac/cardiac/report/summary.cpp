@@ -17,8 +17,9 @@ Json number(double value) {
   return std::isfinite(value) ? Json(rounded_for_files(value)) : Json(nullptr);
 }
 
-Json ventricle_json(const VentricleSummary& v, bool has_beat) {
-  const auto of_beat = [has_beat](double value) { return has_beat ? number(value) : Json(nullptr); };
+Json ventricle_json(const VentricleSummary& v, const BeatResult& r) {
+  const bool contracts = r.has_beat || r.has_contraction;
+  const auto of_beat = [contracts](double value) { return contracts ? number(value) : Json(nullptr); };
   Json json = {{"edv_mL", of_beat(v.edv_mL)},
                {"esv_mL", of_beat(v.esv_mL)},
                {"sv_mL", of_beat(v.sv_mL)},
@@ -26,12 +27,34 @@ Json ventricle_json(const VentricleSummary& v, bool has_beat) {
                {"peak_pressure_mmHg", of_beat(v.peak_pressure_mmHg)},
                {"edp_mmHg", of_beat(v.edp_mmHg)},
                {"ed_time_ms", number(v.ed_time_ms)},
-               {"es_time_ms", number(v.es_time_ms)}};
-  if (!has_beat && !v.samples.empty()) {
+               {"es_time_ms", number(v.es_time_ms)},
+               {"ed_is", v.ed_is},
+               {"es_is", v.es_is},
+               {"isovolumetric_contraction_change_mL", of_beat(v.isovolumetric_contraction_change_mL)},
+               {"isovolumetric_relaxation_change_mL", of_beat(v.isovolumetric_relaxation_change_mL)}};
+  if (!r.has_beat && !v.samples.empty()) {
     json["volume_mL"] = number(v.samples.back().volume_mL);
     json["pressure_mmHg"] = number(v.samples.back().pressure_mmHg);
   }
   return json;
+}
+
+Json haemodynamics_json(const Haemodynamics& h) {
+  Json valves = Json::object();
+  for (const ValveVolumes& valve : h.valves)
+    valves[valve.name] = {{"forward_mL", number(valve.forward_mL)},
+                          {"regurgitant_mL", number(valve.regurgitant_mL)},
+                          {"regurgitant_percent", number(valve.regurgitant_percent)}};
+  return {{"cardiac_output_L_per_min", number(h.cardiac_output_L_per_min)},
+          {"stroke_work_mmHg_mL", number(h.stroke_work_mmHg_mL)},
+          {"stroke_work_mJ", number(h.stroke_work_mJ)},
+          {"dp_dt_max_mmHg_per_s", number(h.dp_dt_max_mmHg_per_s)},
+          {"dp_dt_min_mmHg_per_s", number(h.dp_dt_min_mmHg_per_s)},
+          {"arterial_mean_mmHg", number(h.arterial_mean_mmHg)},
+          {"arterial_systolic_mmHg", number(h.arterial_systolic_mmHg)},
+          {"arterial_diastolic_mmHg", number(h.arterial_diastolic_mmHg)},
+          {"venous_mean_mmHg", number(h.venous_mean_mmHg)},
+          {"valves", valves}};
 }
 
 // Seconds of the solve and what they went to; the rest is the integrator's own work and the output states.
@@ -89,7 +112,11 @@ Json lists_of(const BeatResult& r) {
 
 std::string summary_text(const BeatResult& r, const RunInfo& info) {
   Json ventricles = Json::object();
-  for (const VentricleSummary& v : r.ventricles) ventricles[v.name] = ventricle_json(v, r.has_beat);
+  Json haemodynamics = Json::object();
+  for (const VentricleSummary& v : r.ventricles) {
+    ventricles[v.name] = ventricle_json(v, r);
+    if (v.haemodynamics) haemodynamics[v.name] = haemodynamics_json(*v.haemodynamics);
+  }
   Json json = {{"program", "cardiac"},
                {"version", info.version},
                {"completed", r.completed},
@@ -97,6 +124,7 @@ std::string summary_text(const BeatResult& r, const RunInfo& info) {
                {"method", r.method},
                {"seed", info.seed},
                {"has_beat", r.has_beat},
+               {"has_contraction", r.has_contraction},
                {"mesh", {{"vertices", r.mesh_vertices}, {"tets", r.mesh_tets}}},
                {"dofs", r.dofs},
                {"control_nodes", r.control_nodes},
@@ -113,6 +141,7 @@ std::string summary_text(const BeatResult& r, const RunInfo& info) {
                {"timing", timing_of(r)},
                {"real_time_factor", number(r.wall_solve_s / r.simulated_time_s)},
                {"ventricles", ventricles},
+               {"haemodynamics", haemodynamics},
                {"strain", global_json(r.strain)},
                {"min_det_F", number(r.min_det_F)},
                {"max_det_F", number(r.max_det_F)}};

@@ -1,5 +1,6 @@
 #include <cardiac/report/summary_reader.hpp>
 
+#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -69,6 +70,9 @@ class Reader {
     expect(json_.is_string(), "a text");
     value = json_.get<std::string>();
   }
+  [[noreturn]] void fail(const std::string& expected, const std::string& found) const {
+    throw InputError(file_ + ": '" + key_ + "' holds " + found + ", expected " + expected);
+  }
   std::string dump() const { return json_.dump(2); }
 
  private:
@@ -93,6 +97,34 @@ void read_ventricles(const Reader& reader, BeatResult& r) {
     json.at("edp_mmHg") >> v.edp_mmHg;
     json.at("ed_time_ms") >> v.ed_time_ms;
     json.at("es_time_ms") >> v.es_time_ms;
+    json.at("ed_is") >> v.ed_is;
+    json.at("es_is") >> v.es_is;
+    json.at("isovolumetric_contraction_change_mL") >> v.isovolumetric_contraction_change_mL;
+    json.at("isovolumetric_relaxation_change_mL") >> v.isovolumetric_relaxation_change_mL;
+  }
+}
+
+void read_haemodynamics(const Reader& reader, BeatResult& r) {
+  for (const auto& [name, json] : reader.entries()) {
+    const auto v = std::ranges::find(r.ventricles, name, &VentricleSummary::name);
+    if (v == r.ventricles.end()) reader.fail("ventricles that 'ventricles' has", "'" + name + "'");
+    Haemodynamics& h = v->haemodynamics.emplace();
+    json.at("cardiac_output_L_per_min") >> h.cardiac_output_L_per_min;
+    json.at("stroke_work_mmHg_mL") >> h.stroke_work_mmHg_mL;
+    json.at("stroke_work_mJ") >> h.stroke_work_mJ;
+    json.at("dp_dt_max_mmHg_per_s") >> h.dp_dt_max_mmHg_per_s;
+    json.at("dp_dt_min_mmHg_per_s") >> h.dp_dt_min_mmHg_per_s;
+    json.at("arterial_mean_mmHg") >> h.arterial_mean_mmHg;
+    json.at("arterial_systolic_mmHg") >> h.arterial_systolic_mmHg;
+    json.at("arterial_diastolic_mmHg") >> h.arterial_diastolic_mmHg;
+    json.at("venous_mean_mmHg") >> h.venous_mean_mmHg;
+    for (const auto& [valve_name, valve] : json.at("valves").entries()) {
+      ValveVolumes& volumes = h.valves.emplace_back();
+      volumes.name = valve_name;
+      valve.at("forward_mL") >> volumes.forward_mL;
+      valve.at("regurgitant_mL") >> volumes.regurgitant_mL;
+      valve.at("regurgitant_percent") >> volumes.regurgitant_percent;
+    }
   }
 }
 
@@ -158,6 +190,7 @@ StoredResult parse_summary(const std::string& text, const std::filesystem::path&
   reader.at("stop_reason") >> r.stop_reason;
   reader.at("method") >> r.method;
   reader.at("has_beat") >> r.has_beat;
+  reader.at("has_contraction") >> r.has_contraction;
   reader.at("mesh").at("vertices") >> r.mesh_vertices;
   reader.at("mesh").at("tets") >> r.mesh_tets;
   reader.at("dofs") >> r.dofs;
@@ -173,6 +206,7 @@ StoredResult parse_summary(const std::string& text, const std::filesystem::path&
   reader.at("wall_time_s").at("total") >> r.wall_total_s;
   if (r.has_beat) read_timing(reader.at("timing"), r.cost);
   read_ventricles(reader.at("ventricles"), r);
+  read_haemodynamics(reader.at("haemodynamics"), r);
   read_global(reader.at("strain"), r.strain);
   if (reader.has("right_strain")) read_global(reader.at("right_strain"), r.right_strain.emplace());
   reader.at("min_det_F") >> r.min_det_F;

@@ -177,6 +177,20 @@ std::string cavity_table(const BeatResult& result) {
   return text;
 }
 
+std::string circulation_text(const BeatResult& result) {
+  const CirculationTable& table = result.circulation;
+  std::string text;
+  for (const std::string& name : table.columns) text += (text.empty() ? "" : ",") + name;
+  text += '\n';
+  const std::size_t rows = table.values.empty() ? 0 : table.values.front().size();
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t column = 0; column < table.values.size(); ++column)
+      text += (column > 0 ? "," : "") + number_text(table.values[column].at(row));
+    text += '\n';
+  }
+  return text;
+}
+
 std::string phase_name(Phase phase) {
   switch (phase) {
     case Phase::filling:
@@ -193,7 +207,7 @@ std::string phase_name(Phase phase) {
 
 CardiacTimes cardiac_times(const BeatResult& result) {
   const auto lv = std::ranges::find(result.ventricles, "lv", &VentricleSummary::name);
-  if (result.has_beat && !result.ventricles.empty()) {
+  if ((result.has_beat || result.has_contraction) && !result.ventricles.empty()) {
     const VentricleSummary& v = lv != result.ventricles.end() ? *lv : result.ventricles.front();
     if (std::isfinite(v.ed_time_ms) && std::isfinite(v.es_time_ms)) return {v.ed_time_ms, v.es_time_ms};
   }
@@ -211,6 +225,8 @@ void write_tables(const BeatResult& result, const RunInfo& info, const std::file
   polyaffine::write_atomically(out / "global_strain.csv", global_strain_table(result));
   if (!result.frame_functions.empty()) polyaffine::write_atomically(out / "frames.csv", frames_table(result));
   polyaffine::write_atomically(out / "cavity.csv", cavity_table(result));
+  if (!result.circulation.columns.empty())
+    polyaffine::write_atomically(out / "circulation.csv", circulation_text(result));
   polyaffine::write_atomically(out / "summary.json", summary);
 }
 

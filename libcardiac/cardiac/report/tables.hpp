@@ -37,18 +37,27 @@ std::string frames_table(const BeatResult& result);
 /// cavity.csv: a row per sample of each ventricle.
 std::string cavity_table(const BeatResult& result);
 
+/// circulation.csv: the last beat, four rows a time step. Per side pressures (NAME_mmHg) and flows
+/// (NAME_mL_per_s): before the inlet valve (pulmonary_veins with the left atrium, systemic_veins with the
+/// right one), in the ventricle, behind the outlet valve (aorta, pulmonary_artery), of the arteries'
+/// compliance; through the valves, forwards positive, and through the small vessels; and the volume of the
+/// ventricle.
+std::string circulation_text(const BeatResult& result);
+
 std::string phase_name(Phase phase);
 
-/// Time of end diastole and end systole of the left ventricle (of the first one without "lv"); without a beat
-/// the first and the last output time: the end of the loading takes the place of end systole.
+/// Time of end diastole and end systole of the left ventricle (of the first one without "lv"; KeyStates);
+/// without a beat and without contraction the first and the last output time: the end of the loading takes
+/// the place of end systole.
 struct CardiacTimes {
   double ed_ms = 0, es_ms = 0;
 };
 CardiacTimes cardiac_times(const BeatResult& result);
 
 /// Writes strain.csv, strain_peaks.csv, affine.csv, control_nodes.csv, global_strain.csv, cavity.csv,
-/// summary.json and, where the result has the unknowns of the frames, frames.csv into the folder `out` (made
-/// where missing), each file whole or not at all. Errors as of polyaffine::write_atomically.
+/// summary.json, circulation.csv (of a beat) and, where the result has the unknowns of the frames, frames.csv
+/// into the folder `out` (made where missing), each file whole or not at all. Errors as of
+/// polyaffine::write_atomically.
 void write_tables(const BeatResult& result, const RunInfo& info, const std::filesystem::path& out);
 
 }  // namespace cardiac

@@ -21,8 +21,8 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 constexpr int kBeats = 3;
-const std::array<std::string, 5> kTables{"strain.csv", "strain_peaks.csv", "affine.csv", "global_strain.csv",
-                                         "cavity.csv"};
+const std::array<std::string, 6> kTables{"strain.csv",        "strain_peaks.csv", "affine.csv",
+                                         "global_strain.csv", "cavity.csv",       "circulation.csv"};
 
 class Resume : public testing::Test {
  protected:

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <cardiac/anatomy/segments.hpp>
@@ -140,6 +141,36 @@ TEST(BiventricleHeart, SolveInvertsTheDerivativeOfTheResidual) {
   x /= small;
   EXPECT_LT((x - d).head(n).norm(), 1e-4 * d.head(n).norm());
   EXPECT_LT((x - d).tail(8).cwiseQuotient(d.tail(8)).cwiseAbs().maxCoeff(), 1e-4);
+}
+
+TEST(BiventricleHeart, ExtrapolationBetweenBeatsKeepsTheBlood) {
+  Protocol p = CoarseBiventricle::get().protocol;
+  p.time.limit_cycle_tolerance_percent = 1e-6;
+  p.time.max_beats = 4;
+  const testing::HeartRun run(p, CoarseBiventricle::get().anatomy);
+  ASSERT_TRUE(run.path.completed) << run.path.stop_reason;
+  ASSERT_EQ(run.path.cycle.size(), 4U);
+  const TwoSidedCirculation circulation(two_sided_loop(*p.circulation));
+  double moved = 0, before = 0, after = 0;
+  for (std::size_t k = 0; k + 1 < run.path.cycle.size(); ++k) {
+    const Vector &end = run.path.cycle[k].end, &start = run.path.cycle[k + 1].start;
+    EXPECT_NEAR(circulation.blood_volume(start), circulation.blood_volume(end),
+                1e-13 * circulation.blood_volume(end));
+    EXPECT_EQ(start.head(2), end.head(2));  // the cavities keep theirs
+    moved = std::max(moved, (start - end).tail(4).norm());
+  }
+  EXPECT_GT(moved, 0.01 * kPa_per_mmHg);
+  const auto left = [](const CycleBeat& beat) { return (beat.end - beat.start).tail(4).norm(); };
+  before = left(run.path.cycle[1]);
+  after = left(run.path.cycle[3]);
+  EXPECT_LT(after, before / 2);
+  // Both sides pump the same on the limit cycle.
+  const auto& v = run.result.ventricles;
+  EXPECT_NEAR(v[0].haemodynamics->cardiac_output_L_per_min, v[1].haemodynamics->cardiac_output_L_per_min,
+              0.03 * v[0].haemodynamics->cardiac_output_L_per_min);
+  EXPECT_EQ(v[1].haemodynamics->valves[0].name, "tricuspid_valve");
+  const auto& columns = run.result.circulation.columns;
+  EXPECT_NE(std::find(columns.begin(), columns.end(), "pulmonary_artery_mmHg"), columns.end());
 }
 
 }  // namespace

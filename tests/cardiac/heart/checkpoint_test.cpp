@@ -20,6 +20,9 @@ Checkpoint two_beats() {
   out.time_steps = 300;
   out.newton_iterations = 700;
   out.stroke_volumes_mm3 = {6e4, 1.0 / 3};
+  out.cycle = {
+      {polyaffine::Vector::LinSpaced(2, 9, 1.0 / 7), polyaffine::Vector::LinSpaced(2, 9, 1.0 / 3), 6e4},
+      {polyaffine::Vector::LinSpaced(2, 8, 0.1), polyaffine::Vector::LinSpaced(2, 8, 0.3), 1.0 / 3}};
   out.min_det_F = 0.9;
   out.cost.residuals = 1200;
   out.y = polyaffine::Vector::LinSpaced(7, -1, 1e-30);
@@ -41,6 +44,12 @@ TEST_F(CheckpointFile, GivesBackEveryBit) {
   EXPECT_EQ(read.y, at.y);
   EXPECT_EQ(read.rate, at.rate);
   EXPECT_EQ(read.stroke_volumes_mm3, at.stroke_volumes_mm3);
+  ASSERT_EQ(read.cycle.size(), 2U);
+  for (int k = 0; k < 2; ++k) {
+    EXPECT_EQ(read.cycle[k].start, at.cycle[k].start);
+    EXPECT_EQ(read.cycle[k].end, at.cycle[k].end);
+    EXPECT_EQ(read.cycle[k].stroke_mm3, at.cycle[k].stroke_mm3);
+  }
   EXPECT_EQ(checkpoint_text(read, origin), checkpoint_text(at, origin));
 }
 
@@ -63,6 +72,7 @@ TEST_F(CheckpointFile, ADamagedOneIsRefused) {
   EXPECT_THAT(refusal("\"beats\":2", "\"beats\":-2"), HasSubstr("beats"));
   EXPECT_THAT(refusal("\"beats\":2", "\"beats\":3"), HasSubstr("differ in number"));
   EXPECT_THAT(refusal("\"y\":[", "\"y\":[1,"), HasSubstr("differ in length"));
+  EXPECT_THAT(refusal("\"start\":[", "\"start\":[1,"), HasSubstr("cycle differ in length"));
   EXPECT_THAT(refusal("3 tets", "4 tets"), HasSubstr("mesh: found 4 tets, expected 3 tets"));
 }
 

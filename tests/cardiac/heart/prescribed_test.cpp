@@ -7,6 +7,7 @@
 #include <cardiac/heart/verification.hpp>
 #include <cardiac/strain/segment_strain.hpp>
 #include <polyaffine/kinematics/lagrange.hpp>
+#include <polyaffine/solve/equilibrium.hpp>
 
 #include "support/heart_run.hpp"
 
@@ -162,6 +163,79 @@ time = {load_steps = 20, duration_ms = 900}
   EXPECT_NEAR(outputs.back().volume_mm3, filled, 0.02 * filled);  // relaxed again
   EXPECT_EQ(run.ventricle.built.count("contraction"), 1);
   EXPECT_FALSE(run.path.built.contains("circulation"));
+}
+
+TEST(Prescribed, ContractionFollowsTheHeartRateTheIntervalAndTheViscosity) {
+  const auto run = [](const std::string& viscosity) {
+    return HeartRun(parse_protocol(R"(
+mesh = {file = "../meshes/land_ellipsoid_coarse.vtu", length_unit = "mm"}
+tissue = {law = "guccione", bfs = 20, viscosity_kPa_ms = )" +
+                                       viscosity + R"(}
+fibres = {}
+activation = {}
+contraction = {contractility_kPa = 30}
+cavities = {pressure_mmHg = 5}
+time = {heart_rate_bpm = 75, duration_ms = 1600}
+output = {interval_ms = 5}
+)",
+                                   PROJECT_DIR "/protocols/two_beats.toml"));
+  };
+  const HeartRun beats = run("100");
+  ASSERT_TRUE(beats.path.completed) << beats.path.stop_reason;
+  const auto& outputs = beats.path.outputs;
+  ASSERT_EQ(outputs.size(), 321U);
+  for (std::size_t k = 0; k < outputs.size(); ++k)
+    EXPECT_NEAR(outputs[k].time_ms, 5.0 * static_cast<double>(k), 1e-6);
+  // The second contraction repeats the first, 800 ms later.
+  const auto least = [&](std::size_t from, std::size_t to) {
+    return std::min_element(
+        outputs.begin() + from, outputs.begin() + to,
+        [](const HeartState& a, const HeartState& b) { return a.volume_mm3 < b.volume_mm3; });
+  };
+  const auto first = least(0, 160), second = least(160, 321);
+  EXPECT_NEAR(second->time_ms - first->time_ms, 800, 5.1);
+  EXPECT_NEAR(second->volume_mm3, first->volume_mm3, 0.002 * first->volume_mm3);
+  EXPECT_LT(first->volume_mm3, 0.8 * outputs.front().volume_mm3);
+  // End systole is the smallest volume after the last onset of contraction.
+  EXPECT_EQ(beats.key.ed_is, "onset of contraction");
+  EXPECT_NEAR(beats.key.ed.time_ms, 900, 5);
+  EXPECT_EQ(beats.key.es_is, "smallest volume");
+  EXPECT_NEAR(beats.key.es.volume_mm3, second->volume_mm3, 0.001 * second->volume_mm3);
+  EXPECT_NEAR(beats.key.es.time_ms, second->time_ms, 15);
+  EXPECT_LT(beats.result.strain.gcs_percent, -5);
+  // Viscosity delays the motion: while the tension rises the volume is larger than without it; in the end
+  // both are the same.
+  const HeartRun inviscid = run("0"), viscous = run("400");
+  ASSERT_TRUE(inviscid.path.completed) << inviscid.path.stop_reason;
+  const auto rising = static_cast<std::size_t>(150 / 5);
+  EXPECT_GT(viscous.path.outputs[rising].volume_mm3, 1.01 * inviscid.path.outputs[rising].volume_mm3);
+  EXPECT_NEAR(viscous.path.outputs.back().volume_mm3, inviscid.path.outputs.back().volume_mm3,
+              0.01 * inviscid.path.outputs.back().volume_mm3);
+  // Without viscosity every state is an equilibrium of its own: solved statically from the unloaded wall.
+  const HeartState& es = inviscid.key.es;
+  const auto problem = loaded_ventricle(
+      inviscid.ventricle, {es.pressure_kPa, inviscid.ventricle.contraction->tension(es.time_ms)});
+  const auto system = inviscid.ventricle.make_system();
+  Vector c = Vector::Zero(inviscid.ventricle.num_coefficients());
+  ASSERT_TRUE(polyaffine::load_stepping(problem, *system, c, {}).converged());
+  EXPECT_NEAR(inviscid.ventricle.cavity_volume(c), es.volume_mm3, 0.002 * es.volume_mm3);
+}
+
+TEST(Prescribed, WithoutACavityEndSystoleIsTheEndOfContraction) {
+  const HeartRun run(parse_protocol(R"(
+mesh = {file = "../meshes/land_ellipsoid_coarse.vtu", length_unit = "mm"}
+tissue = {bfs = 20}
+fibres = {}
+activation = {}
+contraction = {contractility_kPa = 20}
+time = {duration_ms = 600}
+output = {interval_ms = 50}
+)",
+                                    PROJECT_DIR "/protocols/free_contraction.toml"));
+  ASSERT_TRUE(run.path.completed) << run.path.stop_reason;
+  EXPECT_EQ(run.key.es_is, "end of contraction");
+  EXPECT_NEAR(run.key.es.time_ms - run.key.ed.time_ms, 324, 10);
+  EXPECT_LT(run.result.strain.gcs_percent, -3);
 }
 
 }  // namespace

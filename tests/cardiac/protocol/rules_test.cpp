@@ -1,5 +1,7 @@
 #include "texts.hpp"
 
+#include <cmath>
+
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -100,6 +102,29 @@ TEST(Rules, KeysThatPlayNoPartAreWarnedOf) {
   EXPECT_THAT(protocol.warnings[0], AllOf(HasSubstr("tissue.C_kPa"), HasSubstr("tissue.law = guccione")));
   EXPECT_THAT(parsed(kPassive, {"mesh.length_unit=mm"}).warnings, SizeIs(1));
   EXPECT_THAT(parsed(kPassive, {"tissue.mu_kPa=2"}).warnings, IsEmpty());
+}
+
+TEST(Rules, SystoleFollowsTheHeartRateUnlessItIsGiven) {
+  const auto duration = [](const std::vector<std::string>& overrides) {
+    return *parsed(kBeat, overrides).contraction->activation_duration_ms;
+  };
+  EXPECT_EQ(duration({"time.heart_rate_bpm=75"}), 324);
+  // Bazett: twice the rate, 1/√2 of the duration; four times the rate, half of it.
+  EXPECT_NEAR(duration({"time.heart_rate_bpm=150"}), 324 / std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(duration({"time.heart_rate_bpm=300"}), 162, 1e-9);
+  EXPECT_NEAR(duration({"time.heart_rate_bpm=190"}), 324 * std::sqrt(75 / 190.0), 1e-9);
+  EXPECT_EQ(duration({"time.heart_rate_bpm=150", "contraction.activation_duration_ms=200"}), 200);
+}
+
+TEST(Rules, ContractionMustFitIntoABeat) {
+  // 60000/190 ms is shorter than the 324 ms given; one of 315 leaves no time to relax.
+  for (const char* given : {"324", "315"})
+    EXPECT_THAT(refusal(kBeat, {"time.heart_rate_bpm=190",
+                                std::string("contraction.activation_duration_ms=") + given}),
+                AllOf(HasSubstr("contraction.activation_duration_ms"), HasSubstr("time.heart_rate_bpm = 190"),
+                      HasSubstr("315.789"), HasSubstr(given)));
+  EXPECT_NO_THROW(parsed(kBeat, {"time.heart_rate_bpm=190", "contraction.activation_duration_ms=200"}));
+  EXPECT_NO_THROW(parsed(kBeat, {"time.heart_rate_bpm=190"}));
 }
 
 }  // namespace

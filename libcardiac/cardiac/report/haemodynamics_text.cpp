@@ -1,0 +1,38 @@
+#include <cardiac/report/haemodynamics_text.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <cardiac/report/text.hpp>
+
+namespace cardiac {
+
+std::vector<std::string> haemodynamics_lines(const VentricleSummary& v) {
+  if (!v.haemodynamics) return {};
+  const Haemodynamics& h = *v.haemodynamics;
+  const std::string artery = v.name == "rv" ? "pulmonary artery" : "aorta";
+  std::vector<std::string> lines{
+      "output " + display_text(h.cardiac_output_L_per_min, 1) + " L/min, " + artery + " " +
+      display_text(h.arterial_systolic_mmHg, 0) + "/" + display_text(h.arterial_diastolic_mmHg, 0) +
+      " mmHg, mean " + display_text(h.arterial_mean_mmHg, 0) + " mmHg, stroke work " +
+      display_text(h.stroke_work_mJ, 0) + " mJ, dP/dt " + display_text(h.dp_dt_max_mmHg_per_s, 0) + " and " +
+      display_text(h.dp_dt_min_mmHg_per_s, 0) + " mmHg/s"};
+  const double negligible_mL = 0.01 * std::abs(v.sv_mL);
+  for (const ValveVolumes& valve : h.valves) {
+    if (valve.regurgitant_mL <= negligible_mL) continue;
+    std::string name = valve.name;
+    std::ranges::replace(name, '_', ' ');
+    lines.push_back(name + ": " + display_text(valve.regurgitant_mL, 1) + " mL of " +
+                    display_text(valve.forward_mL, 1) + " mL come back (" +
+                    display_text(valve.regurgitant_percent, 0) + " %)");
+  }
+  for (const auto& [phase, change] : {std::pair{"contraction", v.isovolumetric_contraction_change_mL},
+                                      std::pair{"relaxation", v.isovolumetric_relaxation_change_mL}})
+    if (std::abs(change) > negligible_mL)
+      lines.push_back("leaks change the volume by " + display_text(change, 1) + " mL in isovolumetric " +
+                      phase);
+  return lines;
+}
+
+}  // namespace cardiac

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <cardiac/heart/beat_result.hpp>
+
+namespace cardiac {
+
+/// The circulation of a ventricle in words, one line a fact: output and pressures; what leaks back through a
+/// valve and what a leak changes in isovolumetric phases, both only where it is more than 1 % of the stroke
+/// volume. Empty without a whole beat.
+std::vector<std::string> haemodynamics_lines(const VentricleSummary& ventricle);
+
+}  // namespace cardiac
