@@ -72,7 +72,7 @@ void write_results(const Ventricle& ventricle, const Protocol& protocol, const H
     write_mesh_series(ventricle, protocol, path, result, out);
   std::string wall;
   if (protocol.output.figures) {
-    write_figures(result, out);
+    write_figures(result, info, out);
     wall = write_wall_figure(ventricle, protocol, path, result, out);
   }
   result.wall_output_s = seconds_since(output_start);
