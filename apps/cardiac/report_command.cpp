@@ -14,7 +14,7 @@ namespace {
 
 void write_report(const std::filesystem::path& folder) {
   const StoredResult stored = read_result(folder);
-  write_figures(stored.result, folder);
+  write_figures(stored.result, stored.info, folder);
   const std::filesystem::path wall = folder / "wall.svg";
   write_report_page(stored.result, stored.info, folder, std::filesystem::exists(wall) ? read_text(wall) : "");
   std::cout << (folder / "report.html").string() << "\n";

@@ -73,7 +73,7 @@ std::string write_results(const Ventricle& ventricle, const Protocol& protocol, 
     write_mesh_series(ventricle, protocol, path, result, out);
   std::string wall;
   if (protocol.output.figures) {
-    write_figures(result, out);
+    write_figures(result, info, out);
     wall = write_wall_figure(ventricle, protocol, path, result, out);
   }
   if (protocol.output.tables) write_tables(result, info, out);

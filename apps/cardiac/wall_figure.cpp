@@ -19,9 +19,7 @@ Figure wall_figure(const Ventricle& ventricle, const Protocol& protocol, const H
   const polyaffine::Vec3 lateral = coordinates.anterior().cross(axis).normalized();
   const bool beat = result.has_beat || result.has_contraction;
   WallPicture picture{"Circumferential strain of the segments",
-                      "%",
-                      "shortening",
-                      "lengthening",
+                      Quantity::circumferential,
                       cut_wall(anatomy.mesh, coordinates.base_centre(), lateral),
                       anatomy.segment,
                       {lateral + 0.35 * axis, axis, "inferior", "anterior"},

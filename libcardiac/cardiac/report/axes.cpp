@@ -86,7 +86,8 @@ DrawPoint Plot::at(double x_value, double y_value) const {
   return {left + width * x.fraction(x_value), top + height * (1 - y.fraction(y_value))};
 }
 
-void Plot::draw(Svg& svg, std::string_view x_title, std::string_view y_title, double font_size) const {
+void Plot::draw(Svg& svg, std::string_view x_title, std::string_view y_title, double font_size,
+                bool y_labels) const {
   const std::string_view grid = "stroke=\"#e3e3e3\" stroke-width=\"1\"";
   const std::string_view axis = "stroke=\"#444444\" stroke-width=\"1.2\"";
   const double bottom = top + height, right = left + width;
@@ -100,7 +101,7 @@ void Plot::draw(Svg& svg, std::string_view x_title, std::string_view y_title, do
     const double py = at(x.low, tick).y;
     svg.line({left, py}, {right, py}, tick == 0 ? "stroke=\"#9a9a9a\" stroke-width=\"1\"" : grid);
     svg.line({left - 5, py}, {left, py}, axis);
-    svg.text({left - 9, py}, y.label(tick), {font_size, "#444444", Anchor::end});
+    if (y_labels) svg.text({left - 9, py}, y.label(tick), {font_size, "#444444", Anchor::end});
   }
   svg.line({left, top}, {left, bottom}, axis);
   svg.line({left, bottom}, {right, bottom}, axis);

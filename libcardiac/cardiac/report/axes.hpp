@@ -30,8 +30,9 @@ struct Plot {
   double left = 0, top = 0, width = 1, height = 1;
   Axis x, y;
   DrawPoint at(double x_value, double y_value) const;
-  /// Grid, frame, tick labels and axis titles.
-  void draw(Svg& svg, std::string_view x_title, std::string_view y_title, double font_size) const;
+  /// Grid, frame, tick labels (those of y only when asked for) and axis titles.
+  void draw(Svg& svg, std::string_view x_title, std::string_view y_title, double font_size,
+            bool y_labels = true) const;
 };
 
 }  // namespace cardiac

@@ -1,117 +1,242 @@
 #include <cardiac/report/bullseye.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 #include <cardiac/report/text.hpp>
 
 namespace cardiac {
 namespace {
 
-constexpr DrawPoint kCentre{230, 262};
-constexpr double kRadius = 186;
-constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kWidth = 520, kLegendLine = 22;
+constexpr std::array<std::string_view, 3> kDashes{"", "9 5", "2 4"};
 
-DrawPoint on_disc(double radius, double angle_deg) {
-  return {kCentre.x + kRadius * radius * std::cos(angle_deg * kDegree),
-          kCentre.y - kRadius * radius * std::sin(angle_deg * kDegree)};
+struct WallLabel {
+  double x, y, rotate;
+  std::string_view text;
+};
+
+struct Look {
+  BullseyeDisc disc;
+  BullseyeCells cells;
+  std::vector<WallLabel> walls;
+  double bottom = 0;  ///< of disc and wall labels
+  std::string of;
+};
+
+Look left_look() {
+  constexpr double kCx = kWidth / 2, kCy = 308, kR = 212, kAway = kR + 20;
+  return {{{kCx, kCy}, kR},
+          left_cells(),
+          {{kCx, kCy - kAway, 0, "anterior"},
+           {kCx, kCy + kAway, 0, "inferior"},
+           {kCx - kAway, kCy, -90, "septal"},
+           {kCx + kAway, kCy, 90, "lateral"}},
+          kCy + kAway + 8,
+          "the 17 AHA segments"};
 }
 
-std::string point_text(DrawPoint p) {
-  return coordinate(p.x) + " " + coordinate(p.y);
+Look right_look() {
+  constexpr double kCx = 376, kCy = 330, kR = 236, kAway = 20;
+  return {{{kCx, kCy}, kR},
+          right_cells(),
+          {{kCx - 36, kCy - kR - kAway, 0, "anterior"},
+           {kCx - 36, kCy + kR + kAway, 0, "inferior"},
+           {kCx - kR - kAway, kCy, -90, "lateral"},
+           {kCx + kAway, kCy, 90, "septum and left ventricle"}},
+          kCy + kR + kAway + 8,
+          "the 12 segments of the right free wall"};
 }
 
-std::string sector_path(const BullseyeCell& cell) {
-  const auto arc = [](double radius, int sweep, DrawPoint to) {
-    const std::string r = coordinate(kRadius * radius);
-    return " A" + r + " " + r + " 0 0 " + std::to_string(sweep) + " " + point_text(to);
-  };
-  return "M" + point_text(on_disc(cell.inner, cell.from_deg)) + " L" +
-         point_text(on_disc(cell.outer, cell.from_deg)) +
-         arc(cell.outer, 0, on_disc(cell.outer, cell.to_deg)) + " L" +
-         point_text(on_disc(cell.inner, cell.to_deg)) +
-         arc(cell.inner, 1, on_disc(cell.inner, cell.from_deg)) + " Z";
-}
-
-ColourRange range_of(const Bullseye& bullseye) {
-  double low = INFINITY, high = -INFINITY;
-  for (const auto& value : bullseye.values) {
-    if (!value || !std::isfinite(*value)) continue;
-    low = std::min(low, *value);
-    high = std::max(high, *value);
+std::vector<NamedRegion> regions_among(const std::vector<NamedRegion>& regions, const BullseyeCells& cells) {
+  std::vector<NamedRegion> list;
+  for (const NamedRegion& region : regions) {
+    NamedRegion here{region.name, {}};
+    std::ranges::copy_if(region.segments, std::back_inserter(here.segments),
+                         [&](int s) { return cells.contains(s); });
+    list.push_back(std::move(here));  // an empty one keeps its letter
   }
-  if (bullseye.scale == ColourScale::sequential) return {round_axis(low, high, 5), bullseye.scale};
-  return diverging_range(low, high);
+  return list;
 }
 
-void draw_cells(Svg& svg, const Bullseye& bullseye, const ColourRange& range) {
-  for (int segment = 1; segment <= 17; ++segment) {
-    const BullseyeCell cell = bullseye_cell(segment);
-    const std::optional<double>& value = bullseye.values[static_cast<size_t>(segment - 1)];
-    const bool known = value && std::isfinite(*value);
-    const Rgb colour = known ? range.colour(*value) : Rgb{0.88, 0.88, 0.88};
-    const std::string style = "fill=\"" + colour.hex() + "\" stroke=\"#ffffff\" stroke-width=\"2\"";
-    const std::string text = known ? display_text(*value, bullseye.decimals) : "–";
-    const std::string tooltip = "Segment " + std::to_string(segment) + ": " + text + " " + bullseye.unit;
-    if (cell.inner == 0)
-      svg.circle(kCentre, kRadius * cell.outer, style, tooltip);
-    else
-      svg.path(sector_path(cell), style, tooltip);
-    const DrawPoint middle = {kCentre.x + kRadius * cell.centre().x, kCentre.y - kRadius * cell.centre().y};
-    const std::string ink = colour.readable_text();
-    svg.text({middle.x, middle.y - 10}, std::to_string(segment), {11, ink, Anchor::middle});
-    svg.text({middle.x, middle.y + 6}, text, {14, ink, Anchor::middle, true});
+/// Half the sides of a label: number over value (and mark).
+struct LabelSize {
+  double font, half_width, half_height;
+};
+
+constexpr double kNumberSize = 0.78, kGap = 0.36, kCapital = 0.73, kMark = 0.62;  // of the value's font
+
+LabelSize label_size(const std::string& text, bool marked, double font) {
+  const double width = text_width(text, font, true) + (marked ? (kMark + 0.2) * font : 0);
+  return {font, width / 2, (kCapital * (1 + kNumberSize) + kGap) * font / 2};
+}
+
+bool fits(const BullseyeDisc& disc, const BullseyeCell& cell, const LabelSize& size) {
+  constexpr double kClear = 3.5;  // from the middle of the border's stroke
+  constexpr int kSteps = 8;
+  const DrawPoint middle = cell.centre();
+  for (int i = -kSteps; i <= kSteps; ++i) {
+    for (const double side : {-1.0, 1.0}) {
+      const double s = static_cast<double>(i) / kSteps;
+      for (const auto& [sx, sy] : {std::pair{s, side}, {side, s}}) {
+        const double x = middle.x + sx * (size.half_width + kClear) / disc.radius;
+        const double y = middle.y + sy * (size.half_height + kClear) / disc.radius;
+        if (!cell.holds(std::hypot(x, y), std::atan2(y, x) * 180 / std::numbers::pi)) return false;
+      }
+    }
+  }
+  return true;
+}
+
+LabelSize fitted_label(const BullseyeDisc& disc, const BullseyeCell& cell, const std::string& text,
+                       bool marked) {
+  constexpr double kLargest = 15, kSmallest = 7;
+  for (double font = kLargest; font > kSmallest; font -= 0.5)
+    if (const LabelSize size = label_size(text, marked, font); fits(disc, cell, size)) return size;
+  return label_size(text, marked, kSmallest);
+}
+
+void draw_label(Svg& svg, const Look& look, int segment, const std::string& text, int beyond,
+                const std::string& ink) {
+  const BullseyeCell& cell = look.cells.at(segment);
+  const LabelSize size = fitted_label(look.disc, cell, text, beyond != 0);
+  const DrawPoint middle = look.disc.at(cell.centre());
+  const double number_font = kNumberSize * size.font;
+  svg.text({middle.x, middle.y - size.half_height + kCapital * number_font / 2}, std::to_string(segment),
+           {number_font, ink, Anchor::middle});
+  const double y = middle.y + size.half_height - kCapital * size.font / 2;
+  const double shift = beyond == 0 ? 0 : -beyond * (kMark + 0.2) * size.font / 2;
+  svg.text({middle.x + shift, y}, text, {size.font, ink, Anchor::middle, true});
+  if (beyond != 0)
+    draw_beyond_mark(svg, {middle.x + beyond * (size.half_width - kMark * size.font / 2), y},
+                     kMark * size.font, beyond, ink);
+}
+
+void draw_cells(Svg& svg, const Look& look, const Bullseye& bullseye) {
+  const Scale& scale = scale_of(bullseye.quantity);
+  for (const auto& [segment, cell] : look.cells) {
+    const auto found = bullseye.values.find(segment);
+    const bool known = found != bullseye.values.end() && std::isfinite(found->second);
+    const Rgb colour = known ? scale.range.colour(found->second) : Rgb{0.88, 0.88, 0.88};
+    const int beyond = known ? scale.range.beyond(found->second) : 0;
+    const std::string text = known ? display_text(found->second, scale.decimals) : "–";
+    svg.path(cell_path(look.disc, cell),
+             "fill=\"" + colour.hex() + "\" stroke=\"#ffffff\" stroke-width=\"2\"",
+             "Segment " + std::to_string(segment) + ": " + text + " " + scale.unit +
+                 (beyond == 0 ? "" : ", beyond the scale"));
+    draw_label(svg, look, segment, text, beyond, colour.readable_text());
   }
 }
 
-void draw_walls(Svg& svg) {
-  const double away = kRadius + 16;
-  const auto label = [&](DrawPoint offset, std::string_view text, double rotate) {
-    svg.text({kCentre.x + offset.x, kCentre.y + offset.y}, text,
-             {13, "#555555", Anchor::middle, false, rotate});
-  };
-  label({0, -away}, "anterior", 0);
-  label({0, away}, "inferior", 0);
-  label({-away, 0}, "septal", -90);
-  label({away, 0}, "lateral", 90);
+std::string region_stroke(size_t region) {
+  const std::string style = "stroke=\"#111111\" stroke-width=\"3.2\"";
+  const std::string_view dash = kDashes[region % kDashes.size()];
+  return style +
+         (dash.empty() ? " stroke-linecap=\"round\"" : " stroke-dasharray=\"" + std::string(dash) + "\"");
+}
+
+/// The letter of a region on a disc of its own.
+void draw_badge(Svg& svg, DrawPoint at, size_t region) {
+  svg.circle(at, 9, "fill=\"#111111\" stroke=\"#ffffff\" stroke-width=\"1.5\"");
+  svg.text(at, std::string(1, region_letter(region)), {12, "#ffffff", Anchor::middle, true});
+}
+
+/// Beside the outline, in the middle of the outer side of the region's outermost, first segment; further
+/// regions of the same segment next to it.
+void draw_regions(Svg& svg, const Look& look, const std::vector<NamedRegion>& regions) {
+  std::map<int, int> badges;
+  for (size_t i = 0; i < regions.size(); ++i) {
+    const NamedRegion& region = regions[i];
+    if (region.segments.empty()) continue;
+    const std::string d = outline_path(look.disc, look.cells, region.segments);
+    svg.path(d, "fill=\"none\" stroke=\"#ffffff\" stroke-width=\"6\" stroke-linecap=\"round\"");
+    svg.path(d, "fill=\"none\" " + region_stroke(i), region.name);
+    const int first = *std::ranges::min_element(region.segments);
+    const BullseyeCell& cell = look.cells.at(first);
+    const double middle = (cell.from_deg + cell.to_deg) / 2 - 12.0 * badges[first]++;
+    draw_badge(svg, look.disc.at(cell.outer, middle), i);
+  }
+}
+
+std::string shortened(const std::string& text, double width, double font) {
+  if (text_width(text, font, false) <= width) return text;
+  std::string kept = text;
+  while (!kept.empty() && text_width(kept + "…", font, false) > width) {
+    while (!kept.empty() && (static_cast<unsigned char>(kept.back()) & 0xC0) == 0x80) kept.pop_back();
+    if (!kept.empty()) kept.pop_back();
+  }
+  return kept + "…";
+}
+
+void draw_region_names(Svg& svg, double top, const std::vector<NamedRegion>& regions) {
+  double y = top;
+  for (size_t i = 0; i < regions.size(); ++i) {
+    if (regions[i].segments.empty()) continue;
+    svg.line({30, y}, {72, y}, region_stroke(i));
+    draw_badge(svg, {51, y}, i);
+    std::string text = regions[i].name + ": segment" + (regions[i].segments.size() > 1 ? "s" : "");
+    for (const int s : regions[i].segments)
+      text += (s == regions[i].segments.front() ? " " : ", ") + std::to_string(s);
+    svg.text({82, y}, shortened(text, kWidth - 92, 13), {13, "#222222"});
+    y += kLegendLine;
+  }
+}
+
+std::string description_of(const Look& look, const Bullseye& bullseye,
+                           const std::vector<NamedRegion>& regions) {
+  const Scale& scale = scale_of(bullseye.quantity);
+  std::string text = "Bull's-eye of " + look.of + ", in " + scale.unit + ":";
+  for (const auto& [segment, cell] : look.cells)
+    if (const auto value = bullseye.values.find(segment); value != bullseye.values.end())
+      text += " " + std::to_string(segment) + ": " + display_text(value->second, scale.decimals) + ";";
+  text.back() = '.';
+  for (const NamedRegion& region : regions)
+    if (!region.segments.empty()) text += " Outlined: " + region.name + ".";
+  return text;
+}
+
+std::string drawn(const Look& look, const Bullseye& bullseye) {
+  const Scale& scale = scale_of(bullseye.quantity);
+  const std::vector<NamedRegion> regions = regions_among(bullseye.regions, look.cells);
+  const auto named = std::ranges::count_if(regions, [](const auto& r) { return !r.segments.empty(); });
+  const double bar = look.bottom + 22, names = bar + 94;
+  Svg svg(kWidth, names - 6 + kLegendLine * static_cast<double>(named), bullseye.title,
+          description_of(look, bullseye, regions));
+  svg.text({kWidth / 2, 24}, bullseye.title, {18, "#222222", Anchor::middle, true});
+  svg.text({kWidth / 2, 46}, bullseye.note, {13, "#555555", Anchor::middle});
+  draw_cells(svg, look, bullseye);
+  draw_regions(svg, look, regions);
+  for (const WallLabel& label : look.walls)
+    svg.text({label.x, label.y}, label.text, {13, "#555555", Anchor::middle, false, label.rotate});
+  draw_colour_bar(svg, {90, bar}, 340, scale.range, {scale.unit, scale.low_meaning, scale.high_meaning});
+  svg.text({kWidth / 2, bar + 69}, scale_statement(scale) + "; a triangle marks a value beyond",
+           {12, "#666666", Anchor::middle});
+  draw_region_names(svg, names, regions);
+  return svg.str();
 }
 
 }  // namespace
 
-DrawPoint BullseyeCell::centre() const {
-  const double radius = inner == 0 ? 0 : (inner + outer) / 2;
-  const double angle = (from_deg + to_deg) / 2 * kDegree;
-  return {radius * std::cos(angle), radius * std::sin(angle)};
-}
-
-BullseyeCell bullseye_cell(int segment) {
-  if (segment < 1 || segment > 17) throw std::out_of_range("a bull's-eye has the segments 1 to 17");
-  constexpr double kCap = 0.22, kApical = 0.48, kMid = 0.74;
-  if (segment == 17) return {0, kCap, 0, 360};
-  if (segment >= 13) {
-    const double from = 45 + 90.0 * (segment - 13);
-    return {kCap, kApical, from, from + 90};
-  }
-  const double from = 60 + 60.0 * ((segment - 1) % 6);
-  return segment <= 6 ? BullseyeCell{kMid, 1, from, from + 60} : BullseyeCell{kApical, kMid, from, from + 60};
+char region_letter(size_t index) {
+  return static_cast<char>('A' + index % 26);
 }
 
 std::string bullseye_svg(const Bullseye& bullseye) {
-  std::string description = "Bull's-eye of the 17 AHA segments, in " + bullseye.unit + ":";
-  for (size_t i = 0; i < bullseye.values.size(); ++i)
-    if (bullseye.values[i])
-      description +=
-          " " + std::to_string(i + 1) + ": " + display_text(*bullseye.values[i], bullseye.decimals) + ";";
-  description.back() = '.';
-  Svg svg(460, 554, bullseye.title, description);
-  svg.text({kCentre.x, 24}, bullseye.title, {18, "#222222", Anchor::middle, true});
-  const ColourRange range = range_of(bullseye);
-  draw_cells(svg, bullseye, range);
-  draw_walls(svg);
-  draw_colour_bar(svg, {70, 490}, 320, range, {bullseye.unit, bullseye.low_meaning, bullseye.high_meaning});
-  return svg.str();
+  return drawn(left_look(), bullseye);
+}
+
+std::string right_wall_svg(const Bullseye& bullseye) {
+  return drawn(right_look(), bullseye);
+}
+
+BullseyeDisc bullseye_disc() {
+  return left_look().disc;
+}
+
+BullseyeDisc right_wall_disc() {
+  return right_look().disc;
 }
 
 }  // namespace cardiac

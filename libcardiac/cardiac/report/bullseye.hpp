@@ -1,36 +1,41 @@
 #pragma once
 
-#include <array>
-#include <optional>
+#include <map>
 #include <string>
+#include <vector>
 
-#include <cardiac/report/colour_bar.hpp>
-#include <cardiac/report/svg.hpp>
+#include <cardiac/report/bullseye_cells.hpp>
+#include <cardiac/report/scales.hpp>
 
 namespace cardiac {
 
-/// Where a segment lies in the bull's-eye: radii as fractions of the outer one, angles in degrees
-/// counter-clockwise from the right; anterior is at the top, the septum left, the apex (17) in the middle
-/// (Cerqueira et al. 2002, Circulation 105:539–542).
-struct BullseyeCell {
-  double inner = 0, outer = 0;
-  double from_deg = 0, to_deg = 0;
-  /// The middle of the cell in the unit disc, y upwards.
-  DrawPoint centre() const;
+/// Segments that the protocol treats otherwise than the rest.
+struct NamedRegion {
+  std::string name;
+  std::vector<int> segments;
 };
 
-/// `segment` 1–17; throws std::out_of_range otherwise.
-BullseyeCell bullseye_cell(int segment);
+/// How the region of this index is lettered: A, B, …
+char region_letter(size_t index);
 
 struct Bullseye {
-  std::string title, unit;
-  ColourScale scale = ColourScale::diverging;
-  std::string low_meaning, high_meaning;  ///< what the ends of the colour bar mean
-  int decimals = 1;
-  std::array<std::optional<double>, 17> values;  ///< of segments 1–17; what is missing is drawn grey
+  std::string title;
+  std::string note;  ///< under the title: the instant, the reference
+  Quantity quantity = Quantity::longitudinal;
+  std::map<int, double> values;  ///< by segment; what is missing or not finite is drawn grey
+  std::vector<NamedRegion> regions;
 };
 
-/// The bull's-eye as SVG: each cell coloured, with its number and value, and a colour bar with the unit.
+/// The bull's-eye as SVG: segments 1–17, each coloured by the scale of its quantity, with its number and
+/// value and a triangle where the value is beyond the scale; regions outlined, lettered and named below; a
+/// colour bar with the unit and the scale in words. Numbers and values keep clear of the borders of cells.
 std::string bullseye_svg(const Bullseye& bullseye);
+
+/// The same of the right free wall, segments 18–29 in right_wall_cell.
+std::string right_wall_svg(const Bullseye& bullseye);
+
+/// Where the unit disc of the cells lies in the drawings.
+BullseyeDisc bullseye_disc();
+BullseyeDisc right_wall_disc();
 
 }  // namespace cardiac

@@ -10,10 +10,16 @@ Rgb ColourRange::colour(double value) const {
   return scale == ColourScale::diverging ? diverging_colour(2 * s - 1) : sequential_colour(s);
 }
 
-ColourRange diverging_range(double low, double high) {
-  const double limit = low <= high ? std::max({std::abs(low), std::abs(high), 1e-3}) : 1;
-  const double end = round_axis(0, limit, 3).high;
-  return {tight_axis(-end, end, 6), ColourScale::diverging};
+int ColourRange::beyond(double value) const {
+  return value < axis.low ? -1 : value > axis.high ? 1 : 0;
+}
+
+void draw_beyond_mark(Svg& svg, DrawPoint at, double size, int side, std::string_view colour) {
+  const double half = size / 2, base = at.x - side * half;
+  svg.path("M" + coordinate(base) + " " + coordinate(at.y - half) + " L" + coordinate(at.x + side * half) +
+               " " + coordinate(at.y) + " L" + coordinate(base) + " " + coordinate(at.y + half) + " Z",
+           "fill=\"" + std::string(colour) + "\"",
+           side < 0 ? "below the lowest value of the scale" : "above the highest value of the scale");
 }
 
 void draw_colour_bar(Svg& svg, DrawPoint corner, double width, const ColourRange& range,
@@ -28,6 +34,12 @@ void draw_colour_bar(Svg& svg, DrawPoint corner, double width, const ColourRange
              "fill=\"" + range.colour(value).hex() + "\"");
   }
   svg.rect(corner, width, kHeight, "fill=\"none\" stroke=\"#666666\" stroke-width=\"0.8\"");
+  for (const int side : {-1, 1}) {
+    const double end = side < 0 ? range.axis.low : range.axis.high;
+    if (range.scale == ColourScale::sequential && side < 0) continue;  // Nothing comes before the first.
+    draw_beyond_mark(svg, {corner.x + (side < 0 ? -10 : width + 10), corner.y + kHeight / 2}, 13, side,
+                     range.colour(end).hex());
+  }
   for (const double tick : range.axis.ticks()) {
     const double x = corner.x + width * (tick - range.axis.low) / (range.axis.high - range.axis.low);
     svg.line({x, corner.y + kHeight}, {x, corner.y + kHeight + 4}, "stroke=\"#666666\" stroke-width=\"1\"");

@@ -17,17 +17,22 @@ enum class ColourScale {
 struct ColourRange {
   Axis axis;
   ColourScale scale = ColourScale::diverging;
+  /// Values beyond the ends have the colour of the end.
   Rgb colour(double value) const;
+  /// −1 below the low end, 1 above the high one, otherwise 0.
+  int beyond(double value) const;
 };
-
-/// A diverging range with round ends, symmetric about 0, that holds [low, high].
-ColourRange diverging_range(double low, double high);
 
 struct ColourBarText {
   std::string unit, low_meaning, high_meaning;
 };
 
-/// A horizontal bar with ticks below, its unit right of it and what its ends mean under them.
+/// A triangle `size` high and wide that points left (side −1) or right (1), its middle at `at`: the mark of a
+/// value beyond the scale.
+void draw_beyond_mark(Svg& svg, DrawPoint at, double size, int side, std::string_view colour);
+
+/// A horizontal bar with ticks below, marks of what lies beyond at both ends, its unit right of it and what
+/// its ends mean under them.
 void draw_colour_bar(Svg& svg, DrawPoint corner, double width, const ColourRange& range,
                      const ColourBarText& text);
 

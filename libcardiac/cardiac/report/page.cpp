@@ -5,8 +5,10 @@
 #include <vector>
 
 #include <cardiac/report/figures.hpp>
-#include <cardiac/report/haemodynamics_text.hpp>
+#include <cardiac/report/page_numbers.hpp>
+#include <cardiac/report/page_parts.hpp>
 #include <cardiac/report/page_style.hpp>
+#include <cardiac/report/protocol_facts.hpp>
 #include <cardiac/report/tables.hpp>
 #include <cardiac/report/text.hpp>
 #include <cardiac/strain/peaks.hpp>
@@ -14,10 +16,6 @@
 
 namespace cardiac {
 namespace {
-
-std::string cell(const std::string& content, const std::string& classes = "") {
-  return (classes.empty() ? "<td>" : "<td class=\"" + classes + "\">") + escape_markup(content) + "</td>";
-}
 
 std::string count_text(long long count) {
   std::string text = std::to_string(count);
@@ -35,7 +33,7 @@ std::string method_name(const BeatResult& r) {
 std::string alerts(const BeatResult& r) {
   std::string html;
   if (!r.completed) {
-    html += "<div class=\"alert stop\" role=\"alert\"><strong>This run did not complete.</strong>" +
+    html += "<div class=\"alert stop\" role=\"alert\"><strong>This run did not complete</strong>" +
             escape_markup(r.stop_reason.empty() ? "No reason was given." : r.stop_reason) +
             "<br>It reached " + display_text(r.simulated_time_s, 3) +
             " s of simulated time; what follows is what it had.</div>\n";
@@ -51,92 +49,53 @@ std::string alerts(const BeatResult& r) {
   return html;
 }
 
-std::string card(const std::string& name, const std::string& value, const std::string& unit,
-                 const std::string& note = "") {
-  std::string html = "<div class=\"card\"><div class=\"name\">" + escape_markup(name) +
-                     "</div><div class=\"value\">" + escape_markup(value) + " <span class=\"unit\">" +
-                     escape_markup(unit) + "</span></div>";
-  if (!note.empty()) html += "<div class=\"note\">" + escape_markup(note) + "</div>";
-  return html + "</div>\n";
-}
-
-std::string circulation_cards(const VentricleSummary& v) {
-  if (!v.haemodynamics) return "";
-  const Haemodynamics& h = *v.haemodynamics;
-  const bool left = v.name == "lv";
-  std::string html =
-      card("Cardiac output", display_text(h.cardiac_output_L_per_min, 1), "L/min") +
-      card(left ? "Aortic pressure" : "Pulmonary artery pressure",
-           display_text(h.arterial_systolic_mmHg, 0) + "/" + display_text(h.arterial_diastolic_mmHg, 0),
-           "mmHg", "mean " + display_text(h.arterial_mean_mmHg, 0)) +
-      card("Stroke work", display_text(h.stroke_work_mJ, 0), "mJ") +
-      card("dP/dt", display_text(h.dp_dt_max_mmHg_per_s, 0), "mmHg/s",
-           "lowest " + display_text(h.dp_dt_min_mmHg_per_s, 0));
-  const std::vector<std::string> lines = haemodynamics_lines(v);
-  for (std::size_t k = 1; k < lines.size(); ++k)
-    html += "<p class=\"small\">" + escape_markup(lines[k]) + "</p>\n";
-  return html;
-}
-
-std::string ventricle_cards(const VentricleSummary& v, bool has_beat) {
-  if (!has_beat) {
-    if (v.samples.empty()) return "";
-    return card("Volume at the end", display_text(v.samples.back().volume_mL, 1), "mL") +
-           card("Pressure at the end", display_text(v.samples.back().pressure_mmHg, 1), "mmHg") +
-           card("Volume at the start", display_text(v.samples.front().volume_mL, 1), "mL");
-  }
-  const bool left = v.name == "lv";
-  const auto typical = [left](const char* text) { return left ? std::string("typical ") + text : ""; };
-  return card("End-diastolic volume", display_text(v.edv_mL, 1), "mL", typical("90 to 150")) +
-         card("End-systolic volume", display_text(v.esv_mL, 1), "mL") +
-         card("Stroke volume", display_text(v.sv_mL, 1), "mL") +
-         card("Ejection fraction", display_text(v.ef_percent, 1), "%", typical("50 to 70")) +
-         card("Peak pressure", display_text(v.peak_pressure_mmHg, 1), "mmHg", typical("110 to 130")) +
-         card("End-diastolic pressure", display_text(v.edp_mmHg, 1), "mmHg") + circulation_cards(v);
-}
-
-std::string headline(const BeatResult& r) {
-  std::string html = "<h2>Headline numbers</h2>\n";
-  for (const VentricleSummary& v : r.ventricles) {
-    const std::string name = v.name == "lv" ? "Left ventricle" : v.name == "rv" ? "Right ventricle" : v.name;
-    html += "<h3>" + escape_markup(name) + "</h3>\n<div class=\"cards\">\n" + ventricle_cards(v, r.has_beat) +
-            "</div>\n";
-  }
-  if (r.instants.empty()) return html + "<p>No strain was computed.</p>\n";
-  const auto typical = [&r](const char* text) { return r.has_beat ? std::string("typical ") + text : ""; };
-  html += "<h3>Global strain of the left ventricle at " +
-          std::string(r.has_beat ? "end systole, against end diastole" : "the end, against the start") +
-          "</h3>\n<div class=\"cards\">\n" +
-          card("Longitudinal (GLS)", display_text(r.strain.gls_percent, 1), "%", typical("about −18")) +
-          card("Circumferential (GCS)", display_text(r.strain.gcs_percent, 1), "%", typical("about −21")) +
-          card("Radial (GRS)", display_text(r.strain.grs_percent, 1), "%", typical("about 44")) +
-          card("Twist", display_text(r.strain.twist_deg, 1), "°", typical("8 to 20")) + "</div>\n";
-  if (r.has_beat)
-    html +=
-        "<p class=\"small\">Typical values are of healthy adults; the strains are from magnetic resonance "
-        "feature tracking, other methods differ.</p>\n";
-  return html;
-}
-
 std::string figure_html(const Figure& figure) {
   return "<figure>" + figure.svg + "</figure>\n";
 }
 
-std::string figure_sections(const BeatResult& r, const std::string& wall_svg) {
-  std::string curves, eyes;
-  for (const Figure& figure : figures(r))
-    (figure.file.starts_with("bullseye_") ? eyes : curves) += figure_html(figure);
+std::string group(const std::string& title, const std::string& text, const char* layout,
+                  const std::string& figures) {
+  if (figures.empty()) return "";
+  return "<h2>" + title + "</h2>\n" + (text.empty() ? "" : "<p class=\"small\">" + text + "</p>\n") +
+         "<div class=\"" + layout + "\">\n" + figures + "</div>\n";
+}
+
+std::string activation_sentence(const BeatResult& r) {
+  const auto span = activation_span(r);
+  if (!span) return "";
+  if (span->uniform()) return "Every segment is activated at " + display_text(span->first_ms, 0) + " ms.";
+  return "The segments are activated from " + display_text(span->first_ms, 0) + " to " +
+         display_text(span->last_ms, 0) + " ms.";
+}
+
+std::string figure_sections(const BeatResult& r, const RunInfo& info, const std::string& wall_svg) {
+  std::string courses, curves, eyes, peaks, right;
+  for (const Figure& figure : figures(r, info)) {
+    const bool eye = figure.file.starts_with("bullseye_");
+    std::string& of = figure.file.starts_with("bullseye_peak_")    ? peaks
+                      : figure.file.starts_with("bullseye_right_") ? right
+                      : eye                                        ? eyes
+                      : figure.file.starts_with("strain_curves")   ? curves
+                                                                   : courses;
+    of += figure_html(figure);
+  }
   std::string html;
   if (!wall_svg.empty())
     html += "<h2>The wall " +
             std::string(r.has_beat ? "at end diastole and end systole" : "before and after") + "</h2>\n" +
             figure_html({"wall.svg", wall_svg});
-  if (!curves.empty())
-    html += "<h2>Pressure, volume and strain over " +
-            std::string(r.has_beat ? "the last beat" : "the loading") + "</h2>\n<div class=\"pair\">\n" +
-            curves + "</div>\n";
-  if (!eyes.empty()) html += "<h2>Segments at a glance</h2>\n<div class=\"eyes\">\n" + eyes + "</div>\n";
-  return html;
+  const std::string when = r.has_beat ? "over the last beat" : "over the loading";
+  return html + group("Pressure and volume " + when, "", "pair", courses) +
+         group("Segments of the left ventricle " + std::string(r.has_beat ? "at end systole" : "at the end"),
+               activation_sentence(r), "eyes", eyes) +
+         group("Segments of the right ventricle", "The free wall laid out flat beside the septum.", "eyes",
+               right) +
+         group("Peak strain of the segments",
+               "The strongest shortening (radial: thickening) at any time. A segment that is stretched in "
+               "systole "
+               "and shortens a little afterwards shows that little here: read it beside end systole.",
+               "eyes", peaks) +
+         group("Strain " + when, "", "full", curves);
 }
 
 std::string segment_table_head(bool has_beat) {
@@ -144,7 +103,7 @@ std::string segment_table_head(bool has_beat) {
   std::string names, columns;
   for (const char* strain : {"Longitudinal", "Circumferential", "Radial"}) {
     names += "<th colspan=\"" + span + "\" class=\"group\">" + strain + "</th>";
-    columns += "<th class=\"group\">peak<br>%</th><th>at<br>ms</th><th>" + end + "<br>%</th>";
+    columns += "<th class=\"group\">" + end + "<br>%</th><th>peak<br>%</th><th>at<br>ms</th>";
     if (has_beat) columns += "<th>PSI<br>%</th>";
   }
   return "<thead><tr><th rowspan=\"2\">No.</th><th rowspan=\"2\" class=\"left\">Segment</th>"
@@ -152,19 +111,32 @@ std::string segment_table_head(bool has_beat) {
          names + "</tr><tr>" + columns + "</tr></thead>";
 }
 
-std::string segment_table(const BeatResult& r) {
+/// " (A)" for each region that the segment belongs to.
+std::string letters_of(int segment, const std::vector<NamedRegion>& regions) {
+  std::string text;
+  for (size_t i = 0; i < regions.size(); ++i)
+    if (std::ranges::find(regions[i].segments, segment) != regions[i].segments.end())
+      text += std::string(" (") + region_letter(i) + ")";
+  return text;
+}
+
+std::string segment_table(const BeatResult& r, const RunInfo& info) {
   const auto [ed_ms, es_ms] = cardiac_times(r);
   const std::vector<SegmentPeaks> peaks = strain_peaks(r.instants, ed_ms, es_ms);
   if (peaks.empty()) return "";
-  std::string rows;
+  const std::vector<NamedRegion> regions = regions_of(info.protocol_json);
+  std::string rows, names;
+  for (size_t i = 0; i < regions.size(); ++i)
+    names += std::string(" (") + region_letter(i) + ") " + escape_markup(regions[i].name) + ".";
   for (size_t i = 0; i < peaks.size(); ++i) {
     const SegmentInfo& segment = r.segments.at(i);
-    rows += "<tr>" + cell(std::to_string(segment.number)) + cell(segment.name, "left") +
-            cell(display_text(segment.volume_mL, 1));
+    rows += "<tr>" + table_cell(std::to_string(segment.number)) +
+            table_cell(segment.name + letters_of(segment.number, regions), "left") +
+            table_cell(display_text(segment.volume_mL, 1));
     for (const StrainPeak& p : {peaks[i].longitudinal, peaks[i].circumferential, peaks[i].radial}) {
-      rows += cell(display_text(100 * p.value, 1), "group") + cell(display_text(p.time_ms, 0)) +
-              cell(display_text(100 * p.end_systolic, 1));
-      if (r.has_beat) rows += cell(display_text(p.post_systolic_index_percent, 0));
+      rows += table_cell(display_text(100 * p.end_systolic, 1), "group") +
+              table_cell(display_text(100 * p.value, 1)) + table_cell(display_text(p.time_ms, 0));
+      if (r.has_beat) rows += table_cell(display_text(p.post_systolic_index_percent, 0));
     }
     rows += "</tr>\n";
   }
@@ -175,9 +147,20 @@ std::string segment_table(const BeatResult& r) {
          "circumferential) or thickening (radial) over all times; a segment that only lengthens or thins has "
          "its strongest lengthening or thinning, with that sign." +
          (r.has_beat ? " PSI: post-systolic index, 100 (peak − ES)/peak where the peak comes outside of "
-                       "systole, otherwise 0."
+                       "systole, otherwise 0; left open where peak and ES differ in sign, or where a late "
+                       "peak follows less than " +
+                           display_text(100 * kLeastEndSystolicStrain, 0) +
+                           " % at ES: the quotient would compare unlike things."
                      : "") +
-         "</p>\n";
+         names + "</p>\n";
+}
+
+std::string assumptions_section(const BeatResult& r, const RunInfo& info) {
+  const bool right = std::ranges::any_of(r.ventricles, [](const auto& v) { return v.name == "rv"; });
+  std::string html = "<h2>What was taken for granted</h2>\n<ul class=\"assumptions\">\n";
+  for (const std::string& sentence : assumptions_of(info.protocol_json, right))
+    html += "<li>" + escape_markup(sentence) + "</li>\n";
+  return html + "</ul>\n";
 }
 
 std::string plan_section(const BeatResult& r) {
@@ -187,9 +170,9 @@ std::string plan_section(const BeatResult& r) {
       "<th class=\"left\">Part</th><th class=\"left\">Built</th><th "
       "class=\"left\">Why</th></tr></thead><tbody>\n";
   for (const PlanItem& item : r.plan)
-    html += "<tr>" + cell(item.part, "left") +
+    html += "<tr>" + table_cell(item.part, "left") +
             (item.built ? "<td class=\"left yes\">built</td>" : "<td class=\"left no\">left out</td>") +
-            cell(item.why, "text") + "</tr>\n";
+            table_cell(item.why, "text") + "</tr>\n";
   return html + "</tbody></table></div>\n";
 }
 
@@ -201,17 +184,18 @@ std::string verification_section(const BeatResult& r) {
       "</th><th>Time<br>ms</th><th>Displacement error<br>%</th><th>Volume error<br>%</th><th>Largest segment "
       "strain error</th><th>Wall time<br>s</th></tr></thead><tbody>\n";
   for (const VerificationInstant& v : r.verification)
-    html +=
-        "<tr>" + cell(v.instant, "left") + cell(display_text(v.time_ms, 0)) +
-        cell(display_text(v.displacement_error_percent, 2)) + cell(display_text(v.volume_error_percent, 2)) +
-        cell(display_text(v.max_segment_strain_error, 4)) + cell(display_text(v.wall_time_s, 2)) + "</tr>\n";
+    html += "<tr>" + table_cell(v.instant, "left") + table_cell(display_text(v.time_ms, 0)) +
+            table_cell(display_text(v.displacement_error_percent, 2)) +
+            table_cell(display_text(v.volume_error_percent, 2)) +
+            table_cell(display_text(v.max_segment_strain_error, 4)) +
+            table_cell(display_text(v.wall_time_s, 2)) + "</tr>\n";
   return html + "</tbody></table></div>\n";
 }
 
 std::string run_section(const BeatResult& r, const RunInfo& info) {
   std::string rows;
   const auto row = [&rows](const std::string& name, const std::string& value) {
-    rows += "<tr>" + cell(name, "left") + cell(value, "left") + "</tr>\n";
+    rows += "<tr>" + table_cell(name, "left") + table_cell(value, "left") + "</tr>\n";
   };
   row("Method", method_name(r));
   row("Mesh", count_text(r.mesh_vertices) + " vertices, " + count_text(r.mesh_tets) + " tetrahedra");
@@ -259,9 +243,10 @@ std::string report_page(const BeatResult& r, const RunInfo& info, const std::str
          name + " – cardiac report</title>\n<style>" + std::string(kPageStyle) +
          "</style>\n</head>\n<body>\n<header>\n<h1>" + name + "</h1>\n<p class=\"sub\">" +
          (r.has_beat ? "Heart beat" : "Prescribed loading") + ", " + escape_markup(method_name(r)) +
-         ", cardiac " + version + "</p>\n" + alerts(r) + "</header>\n<main>\n" + headline(r) +
-         figure_sections(r, wall_svg) + segment_table(r) + verification_section(r) + plan_section(r) +
-         run_section(r, info) + protocol_section(info) + "</main>\n<footer>Written by cardiac " + version +
+         ", cardiac " + version + "</p>\n" + alerts(r) + "</header>\n<main>\n" + numbers_section(r) +
+         figure_sections(r, info, wall_svg) + segment_table(r, info) + assumptions_section(r, info) +
+         verification_section(r) + plan_section(r) + run_section(r, info) + protocol_section(info) +
+         "</main>\n<footer>Written by cardiac " + version +
          ". A model, not a measurement: not for diagnosis.</footer>\n</body>\n</html>\n";
 }
 

@@ -64,7 +64,7 @@ void draw_mark(Svg& svg, const Plot& plot, const VentricleSummary& ventricle, do
   if (nearest == ventricle.samples.end() || !std::isfinite(time_ms) || !drawable(*nearest)) return;
   const DrawPoint p = plot.at(nearest->volume_mL, nearest->pressure_mmHg);
   svg.circle(p, 5.5, "fill=\"#ffffff\" stroke=\"#222222\" stroke-width=\"2\"", name);
-  svg.text({p.x + (right ? 11 : -11), p.y - 11}, name,
+  svg.text({p.x + (right ? 11 : -11), p.y - 12}, name,
            {14, "#222222", right ? Anchor::start : Anchor::end, true});
 }
 
@@ -86,12 +86,18 @@ std::string pv_loop_svg(const BeatResult& result) {
   svg.text({84, 24}, title, {17, "#222222", Anchor::start, true});
   const Plot plot = plot_of(result);
   plot.draw(svg, "volume (mL)", "pressure (mmHg)", 14);
+  for (const VentricleSummary& v : result.ventricles) draw_loop(svg, plot, v, result.has_beat);
   for (const VentricleSummary& v : result.ventricles) {
-    draw_loop(svg, plot, v, result.has_beat);
     if (!result.has_beat) continue;
-    const std::string prefix = result.ventricles.size() > 1 ? v.name + " " : "";
-    draw_mark(svg, plot, v, v.ed_time_ms, prefix + "ED", true);
-    draw_mark(svg, plot, v, v.es_time_ms, prefix + "ES", false);
+    const std::string name = v.name == "lv" ? "LV " : v.name == "rv" ? "RV " : v.name + " ";
+    const std::string prefix = result.ventricles.size() > 1 ? name : "";
+    // Outside of the loops where this one reaches farther than the other, otherwise within.
+    const bool widest = std::ranges::all_of(
+        result.ventricles, [&](const VentricleSummary& other) { return !(other.edv_mL > v.edv_mL); });
+    const bool smallest = std::ranges::all_of(
+        result.ventricles, [&](const VentricleSummary& other) { return !(other.esv_mL < v.esv_mL); });
+    draw_mark(svg, plot, v, v.ed_time_ms, prefix + "ED", widest);
+    draw_mark(svg, plot, v, v.es_time_ms, prefix + "ES", !smallest);
   }
   if (result.has_beat) draw_legend(svg);
   return svg.str();

@@ -6,41 +6,73 @@
 
 #include <cardiac/report/axes.hpp>
 #include <cardiac/report/tables.hpp>
+#include <cardiac/report/text.hpp>
 
 namespace cardiac {
 namespace {
 
-// Okabe & Ito's colours, apart for every common kind of colour blindness.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kTerritories{
-    {{"LAD", "#d55e00"}, {"RCA", "#0072b2"}, {"LCx", "#009e73"}, {"right ventricle", "#7f7f7f"}}};
-constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kLevels{
-    {{"basal", ""}, {"mid", "9 4"}, {"apical", "2.5 3"}, {"apex", "11 3 2 3"}}};
+/// A part of the wall round the axis. Okabe & Ito's colours, apart for every common kind of colour blindness,
+/// without the yellow that is hard to see on white; dashes beside them, for print without colours.
+struct Wall {
+  std::string_view name, colour, dash;
+};
+constexpr Wall kAnterior{"anterior", "#d55e00", ""}, kAnteroseptal{"anteroseptal", "#cc79a7", "8 3"},
+    kInferoseptal{"inferoseptal", "#56b4e9", "2 2"}, kInferior{"inferior", "#0072b2", ""},
+    kInferolateral{"inferolateral", "#009e73", "8 3"}, kAnterolateral{"anterolateral", "#b08900", "2 2"},
+    kApicalSeptal{"apical septal", "#56b4e9", ""}, kLateral{"apical lateral", "#009e73", ""},
+    kApex{"apex", "#111111", "10 3 2 3"};
 
-size_t territory(int segment) {
-  constexpr std::array<size_t, 17> kOf{0, 0, 1, 1, 2, 2, 0, 0, 1, 1, 2, 2, 0, 0, 1, 2, 0};
-  return segment >= 1 && segment <= 17 ? kOf[static_cast<size_t>(segment - 1)] : 3;
+struct Curve {
+  int segment;
+  Wall wall;
+};
+struct Level {
+  std::string_view name;
+  std::vector<Curve> curves;
+};
+struct Chamber {
+  std::string title;
+  std::array<Level, 3> levels;
+};
+
+Chamber left_chamber() {
+  constexpr std::array kRound{kAnterior, kAnteroseptal,  kInferoseptal,
+                              kInferior, kInferolateral, kAnterolateral};
+  std::vector<Curve> basal, mid;
+  for (int i = 0; i < 6; ++i) {
+    basal.push_back({1 + i, kRound.at(i)});
+    mid.push_back({7 + i, kRound.at(i)});
+  }
+  return {"Strain of the left ventricle's segments",
+          {{{"basal", basal},
+            {"mid", mid},
+            {"apical and apex",
+             {{13, kAnterior}, {14, kApicalSeptal}, {15, kInferior}, {16, kLateral}, {17, kApex}}}}}};
 }
 
-size_t level(int segment) {
-  return segment <= 6 ? 0 : segment <= 12 ? 1 : segment <= 16 ? 2 : segment == 17 ? 3 : 0;
+Chamber right_chamber() {
+  return {"Strain of the right ventricle's free wall",
+          {{{"basal", {{18, kAnterior}, {19, kAnterolateral}, {20, kInferolateral}, {21, kInferior}}},
+            {"mid", {{22, kAnterior}, {23, kAnterolateral}, {24, kInferolateral}, {25, kInferior}}},
+            {"apical and apex", {{26, kAnterior}, {27, kLateral}, {28, kInferior}, {29, kApex}}}}}};
 }
 
-std::string stroke(size_t territory_index, size_t level_index) {
-  std::string style = "stroke=\"" + std::string(kTerritories[territory_index].second) +
-                      "\" stroke-width=\"1.8\" stroke-linejoin=\"round\"";
-  const std::string_view dashes = kLevels[level_index].second;
-  if (!dashes.empty()) style += " stroke-dasharray=\"" + std::string(dashes) + "\"";
+std::string stroke(const Wall& wall) {
+  std::string style =
+      "stroke=\"" + std::string(wall.colour) + "\" stroke-width=\"1.9\" stroke-linejoin=\"round\"";
+  if (!wall.dash.empty()) style += " stroke-dasharray=\"" + std::string(wall.dash) + "\"";
   return style;
 }
 
-struct Panel {
+struct Strain {
   std::string_view title;
   double SegmentStrain::*strain;
 };
-constexpr std::array<Panel, 3> kPanels{{{"Longitudinal strain", &SegmentStrain::longitudinal},
-                                        {"Circumferential strain", &SegmentStrain::circumferential},
-                                        {"Radial strain", &SegmentStrain::radial}}};
+constexpr std::array<Strain, 3> kStrains{{{"Longitudinal", &SegmentStrain::longitudinal},
+                                          {"Circumferential", &SegmentStrain::circumferential},
+                                          {"Radial", &SegmentStrain::radial}}};
 
+/// Of the segments of both ventricles, so that all panels of one strain can be compared.
 Axis strain_axis(const BeatResult& result, double SegmentStrain::*strain) {
   double low = 0, high = 0;
   for (const Instant& instant : result.instants) {
@@ -53,73 +85,128 @@ Axis strain_axis(const BeatResult& result, double SegmentStrain::*strain) {
   return round_axis(low, high, 4);
 }
 
-void draw_marks(Svg& svg, const Plot& plot, const BeatResult& result) {
+void draw_marks(Svg& svg, const Plot& plot, const BeatResult& result, const CardiacTimes& times) {
   if (!result.has_beat) return;
-  const auto [ed_ms, es_ms] = cardiac_times(result);
-  for (const auto& [time, name] : {std::pair{ed_ms, "ED"}, std::pair{es_ms, "ES"}}) {
+  for (const auto& [time, name] : {std::pair{times.ed_ms, "ED"}, std::pair{times.es_ms, "ES"}}) {
     if (time < plot.x.low || time > plot.x.high) continue;
     const double x = plot.at(time, plot.y.low).x;
     svg.line({x, plot.top}, {x, plot.top + plot.height},
              "stroke=\"#333333\" stroke-width=\"1.1\" stroke-dasharray=\"1.5 2.5\"");
     const bool at_edge = x - plot.left < 12;
-    svg.text({x + (at_edge ? 1 : 0), plot.top - 10}, name,
-             {13, "#333333", at_edge ? Anchor::start : Anchor::middle, true});
+    svg.text({x + (at_edge ? 1 : 0), plot.top - 9}, name,
+             {12, "#333333", at_edge ? Anchor::start : Anchor::middle, true});
   }
 }
 
-void draw_curves(Svg& svg, const Plot& plot, const BeatResult& result, double SegmentStrain::*strain) {
-  for (size_t i = 0; i < result.segments.size(); ++i) {
-    const SegmentInfo& segment = result.segments[i];
+/// Segment numbers right of their curves at one time, moved apart where they would lie on each other.
+struct NumberLabel {
+  int segment;
+  std::string_view colour;
+  double curve_y, y;
+};
+
+void draw_numbers(Svg& svg, const Plot& plot, double x, std::vector<NumberLabel> labels) {
+  constexpr double kFont = 12, kApart = 12.5, kReach = 16;
+  std::ranges::sort(labels, {}, &NumberLabel::curve_y);
+  for (size_t i = 1; i < labels.size(); ++i) labels[i].y = std::max(labels[i].y, labels[i - 1].y + kApart);
+  double limit = plot.top + plot.height - kApart / 2;
+  for (size_t i = labels.size(); i-- > 0; limit = labels[i].y - kApart)
+    labels[i].y = std::min(labels[i].y, limit);
+  for (const NumberLabel& label : labels) {
+    svg.line({x, label.curve_y}, {x + kReach, label.y},
+             "stroke=\"" + std::string(label.colour) + "\" stroke-width=\"0.9\"");
+    const std::string number = std::to_string(label.segment);
+    const double width = text_width(number, kFont, true);
+    svg.rect({x + kReach, label.y - 6}, width + 3, 12, "fill=\"#ffffff\" fill-opacity=\"0.85\"");
+    svg.text({x + kReach + 1.5, label.y}, number, {kFont, std::string(label.colour), Anchor::start, true});
+  }
+}
+
+void draw_curves(Svg& svg, const Plot& plot, const BeatResult& result, const Level& level,
+                 double SegmentStrain::*strain, double label_ms) {
+  std::vector<NumberLabel> labels;
+  for (const Curve& curve : level.curves) {
+    const auto segment = std::ranges::find(result.segments, curve.segment, &SegmentInfo::number);
+    if (segment == result.segments.end()) continue;
+    const auto index = static_cast<size_t>(segment - result.segments.begin());
     std::vector<DrawPoint> points;
-    for (const Instant& instant : result.instants)
-      if (i < instant.strain.size() && std::isfinite(instant.strain[i].*strain))
-        points.push_back(plot.at(instant.time_ms, 100 * instant.strain[i].*strain));
-    svg.polyline(points, stroke(territory(segment.number), level(segment.number)),
-                 std::to_string(segment.number) + " " + segment.name);
+    double nearest = INFINITY, y = 0;
+    for (const Instant& instant : result.instants) {
+      if (index >= instant.strain.size() || !std::isfinite(instant.strain[index].*strain)) continue;
+      points.push_back(plot.at(instant.time_ms, 100 * instant.strain[index].*strain));
+      if (const double away = std::abs(instant.time_ms - label_ms); away < nearest)
+        nearest = away, y = points.back().y;
+    }
+    const Wall& wall = curve.wall;
+    svg.polyline(points, stroke(wall), std::to_string(segment->number) + " " + segment->name);
+    if (!points.empty()) labels.push_back({curve.segment, wall.colour, y, y});
+  }
+  draw_numbers(svg, plot, plot.at(label_ms, 0).x, labels);
+}
+
+void draw_legend(Svg& svg, DrawPoint corner, double right, const Chamber& chamber) {
+  std::vector<std::string_view> drawn;
+  DrawPoint at = corner;
+  for (const Level& level : chamber.levels) {
+    for (const Curve& curve : level.curves) {
+      const Wall& wall = curve.wall;
+      if (std::ranges::find(drawn, wall.name) != drawn.end()) continue;
+      drawn.push_back(wall.name);
+      const double width = 31 + text_width(wall.name, 12.5, false) + 14;
+      if (at.x + width > right) at = {corner.x, at.y + 21};
+      svg.line(at, {at.x + 26, at.y}, stroke(wall));
+      svg.text({at.x + 31, at.y}, wall.name, {12.5, "#222222"});
+      at.x += width;
+    }
   }
 }
 
-void draw_legend(Svg& svg, double top, const BeatResult& result) {
-  const bool right =
-      std::ranges::any_of(result.segments, [](const auto& s) { return territory(s.number) == 3; });
-  constexpr double kLeft = 78, kColumn = 148;
-  for (size_t i = 0; i < kTerritories.size() - (right ? 0 : 1); ++i) {
-    const double x = kLeft + kColumn * static_cast<double>(i);
-    svg.line({x, top}, {x + 34, top}, stroke(i, 0));
-    svg.text({x + 42, top}, kTerritories[i].first, {14, "#222222"});
+std::string drawn(const Chamber& chamber, const BeatResult& result) {
+  constexpr double kLeft = 66, kPanelWidth = 268, kGap = 22, kPanelHeight = 190, kPitch = 240, kTop = 92;
+  constexpr double kWidth = kLeft + 3 * kPanelWidth + 2 * kGap + 18;
+  Svg svg(
+      kWidth, kTop + 3 * kPitch + 58, chamber.title,
+      "Longitudinal, circumferential and radial strain in percent against time in milliseconds, a row each, "
+      "with a panel for the basal, mid and apical level; one curve a segment; the numbers are in "
+      "strain.csv");
+  svg.text({kLeft, 22}, chamber.title, {17, "#222222", Anchor::start, true});
+  const double first = result.instants.empty() ? 0 : result.instants.front().time_ms;
+  const double last = result.instants.empty() ? 1 : result.instants.back().time_ms;
+  const CardiacTimes times = cardiac_times(result);
+  // Without a beat the curves are apart at the end of the loading: their numbers stand before it.
+  const double label_ms = result.has_beat ? times.es_ms : last - 0.14 * (last - first);
+  for (size_t row = 0; row < kStrains.size(); ++row) {
+    const Axis axis = strain_axis(result, kStrains[row].strain);
+    for (size_t column = 0; column < chamber.levels.size(); ++column) {
+      const Level& level = chamber.levels[column];
+      const Plot plot{kLeft + (kPanelWidth + kGap) * static_cast<double>(column),
+                      kTop + kPitch * static_cast<double>(row),
+                      kPanelWidth,
+                      kPanelHeight,
+                      tight_axis(first, last, 4),
+                      axis};
+      const bool left = column == 0, last_row = row + 1 == kStrains.size();
+      plot.draw(svg, last_row ? "time (ms)" : "",
+                left ? std::string(kStrains[row].title) + " strain (%)" : "", 12.5, left);
+      if (row == 0)
+        svg.text({plot.left + plot.width / 2, plot.top - 30}, level.name,
+                 {14, "#222222", Anchor::middle, true});
+      draw_curves(svg, plot, result, level, kStrains[row].strain, label_ms);
+      draw_marks(svg, plot, result, times);
+    }
   }
-  for (size_t i = 0; i < kLevels.size(); ++i) {
-    const double x = kLeft + kColumn * static_cast<double>(i);
-    std::string style = "stroke=\"#333333\" stroke-width=\"1.8\" stroke-dasharray=\"";
-    svg.line({x, top + 24}, {x + 34, top + 24}, style + std::string(kLevels[i].second) + "\"");
-    svg.text({x + 42, top + 24}, kLevels[i].first, {14, "#222222"});
-  }
+  draw_legend(svg, {kLeft, kTop + 3 * kPitch + 18}, kWidth, chamber);
+  return svg.str();
 }
 
 }  // namespace
 
 std::string strain_curves_svg(const BeatResult& result) {
-  constexpr double kWidth = 680, kPanelHeight = 215, kPitch = 290, kTop = 56;
-  Svg svg(kWidth, kTop + 3 * kPitch + 40, "Strain of each segment over the beat",
-          "Three panels, longitudinal, circumferential and radial strain in percent against time in "
-          "milliseconds, one curve a segment; the numbers are in strain.csv");
-  const double first = result.instants.empty() ? 0 : result.instants.front().time_ms;
-  const double last = result.instants.empty() ? 1 : result.instants.back().time_ms;
-  for (size_t i = 0; i < kPanels.size(); ++i) {
-    const double top = kTop + kPitch * static_cast<double>(i);
-    const Plot plot{78,
-                    top,
-                    kWidth - 78 - 22,
-                    kPanelHeight,
-                    tight_axis(first, last, 8),
-                    strain_axis(result, kPanels[i].strain)};
-    plot.draw(svg, i + 1 == kPanels.size() ? "time (ms)" : "", "strain (%)", 14);
-    svg.text({78, top - 34}, kPanels[i].title, {17, "#222222", Anchor::start, true});
-    draw_curves(svg, plot, result, kPanels[i].strain);
-    draw_marks(svg, plot, result);
-  }
-  draw_legend(svg, kTop + 3 * kPitch - 8, result);
-  return svg.str();
+  return drawn(left_chamber(), result);
+}
+
+std::string right_strain_curves_svg(const BeatResult& result) {
+  return drawn(right_chamber(), result);
 }
 
 }  // namespace cardiac

@@ -21,6 +21,17 @@ std::string closed(std::string_view element, std::string_view tooltip) {
   return "><title>" + escape_markup(tooltip) + "</title></" + std::string(element) + ">\n";
 }
 
+/// Width in em of a character that begins with this byte; 0 inside of a UTF-8 sequence.
+double em_width(unsigned char c) {
+  constexpr std::string_view kNarrow = "ijl.,:;'!|", kSlim = " ftr()[]-/I";
+  if ((c & 0xC0) == 0x80) return 0;
+  if (c >= 0x80) return c >= 0xE2 ? 0.6 : 0.56;  // minus and dashes; accented letters
+  if (kNarrow.find(static_cast<char>(c)) != std::string_view::npos) return 0.28;
+  if (kSlim.find(static_cast<char>(c)) != std::string_view::npos) return 0.34;
+  if (c == 'm' || c == 'M' || c == 'w' || c == 'W' || c == '%') return 0.95;
+  return c >= 'A' && c <= 'Z' ? 0.75 : 0.56;
+}
+
 std::string_view anchor_name(Anchor anchor) {
   return anchor == Anchor::start ? "start" : anchor == Anchor::middle ? "middle" : "end";
 }
@@ -29,6 +40,13 @@ std::string_view anchor_name(Anchor anchor) {
 
 std::string coordinate(double value) {
   return number_text(std::round(100 * value) / 100);
+}
+
+double text_width(std::string_view content, double size, bool bold) {
+  constexpr double kBold = 1.08;
+  double width = 0;
+  for (const char c : content) width += em_width(static_cast<unsigned char>(c));
+  return width * size * (bold ? kBold : 1);
 }
 
 Svg::Svg(double width, double height, std::string_view title, std::string_view description)

@@ -44,6 +44,9 @@ class Svg {
   std::string body_;
 };
 
+/// Width of a text in a drawing's font, an estimate from Helvetica's metrics that is not too small.
+double text_width(std::string_view content, double size, bool bold);
+
 /// A coordinate for SVG attributes: two decimals, whatever the locale.
 std::string coordinate(double value);
 

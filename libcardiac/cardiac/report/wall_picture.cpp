@@ -35,7 +35,6 @@ void draw_panel(Svg& svg, const WallPicture& picture, const WallPanel& panel, co
 std::string wall_picture_svg(const WallPicture& picture) {
   const polyaffine::Mat3 rows = picture.view.camera();
   Vec3 low = Vec3::Constant(INFINITY), high = -low;
-  double least = INFINITY, most = -INFINITY;
   std::string description;
   for (const WallPanel& panel : picture.panels) {
     const Points seen = rows * panel.positions;
@@ -43,26 +42,22 @@ std::string wall_picture_svg(const WallPicture& picture) {
       low = low.cwiseMin(seen.rowwise().minCoeff());
       high = high.cwiseMax(seen.rowwise().maxCoeff());
     }
-    for (const auto& value : panel.values) {
-      if (!value || !std::isfinite(*value)) continue;
-      least = std::min(least, *value);
-      most = std::max(most, *value);
-    }
     description += (description.empty() ? "The wall cut open, " : ", ") + panel.title;
   }
   const Vec3 size = high - low;
   const double scale = std::min((kPanelWidth - 2 * kSide) / size.x(), kHeight / size.y());
-  const ColourRange range = diverging_range(least, most);
+  const Scale& quantity = scale_of(picture.quantity);
   const double width = kPanelWidth * static_cast<double>(picture.panels.size());
   Svg svg(width, 640, picture.title, description);
   svg.text({width / 2, 24}, picture.title, {18, "#222222", Anchor::middle, true});
   for (std::size_t i = 0; i < picture.panels.size(); ++i) {
     const double middle = kPanelWidth * (static_cast<double>(i) + 0.5);
     const WallPlacement place{(low + high) / 2, scale, {middle, kTop + kHeight / 2}};
-    draw_panel(svg, picture, picture.panels[i], place, range);
+    draw_panel(svg, picture, picture.panels[i], place, quantity.range);
   }
-  draw_colour_bar(svg, {width / 2 - 180, 562}, 360, range,
-                  {picture.unit, picture.low_meaning, picture.high_meaning});
+  draw_colour_bar(svg, {width / 2 - 180, 562}, 360, quantity.range,
+                  {quantity.unit, quantity.low_meaning, quantity.high_meaning});
+  svg.text({width / 2, 628}, scale_statement(quantity), {12, "#666666", Anchor::middle});
   return svg.str();
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <cardiac/report/scales.hpp>
 #include <cardiac/report/wall_drawing.hpp>
 
 namespace cardiac {
@@ -16,15 +17,16 @@ struct WallPanel {
 };
 
 struct WallPicture {
-  std::string title, unit, low_meaning, high_meaning;
+  std::string title;
+  Quantity quantity = Quantity::circumferential;
   WallCut cut;
   std::vector<int> segment;  ///< from 1, of each tet of the mesh that was cut
   WallView view;
   std::vector<WallPanel> panels;
 };
 
-/// The panels side by side at one scale, as SVG: walls (draw_wall) coloured by the value of their segments,
-/// and a colour bar.
+/// The panels side by side at one scale, as SVG: walls (draw_wall) coloured by the value of their segments on
+/// the scale of the quantity, and a colour bar.
 std::string wall_picture_svg(const WallPicture& picture);
 
 }  // namespace cardiac

@@ -43,6 +43,13 @@ double value_at(const std::vector<Sample>& curve, double t) {
   return (1 - s) * before.strain + s * after->strain;
 }
 
+double post_systolic_index(double peak, double end_systolic, bool post_systolic) {
+  if (!std::isfinite(peak) || peak * end_systolic < 0) return kNone;
+  if (!post_systolic) return 0;
+  if (std::abs(end_systolic) < kLeastEndSystolicStrain) return kNone;
+  return 100 * (peak - end_systolic) / peak;
+}
+
 StrainPeak peak_of_strain(const std::vector<Instant>& instants, size_t segment, double SegmentStrain::*strain,
                           double sign, const Systole& systole) {
   std::vector<Sample> curve, systolic;
@@ -56,9 +63,8 @@ StrainPeak peak_of_strain(const std::vector<Instant>& instants, size_t segment, 
   if (!curve.empty()) systolic.push_back({systole.es_ms, end_systolic});
   const Sample peak = peak_of(curve, sign);
   const bool post_systolic = sign * peak.strain > 0 && !systole.contains(peak.time_ms);
-  const double index = post_systolic ? 100 * (peak.strain - end_systolic) / peak.strain : 0;
   return {peak.strain, peak.time_ms, peak_of(systolic, sign).strain, end_systolic,
-          curve.empty() ? kNone : index};
+          post_systolic_index(peak.strain, end_systolic, post_systolic)};
 }
 
 }  // namespace

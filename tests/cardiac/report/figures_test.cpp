@@ -3,23 +3,28 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <regex>
+#include <set>
 
 #include <cardiac/report/axes.hpp>
-#include <cardiac/report/bullseye.hpp>
 #include <cardiac/report/colour_map.hpp>
 #include <cardiac/report/csv_reader.hpp>
 #include <cardiac/report/figures.hpp>
 #include <cardiac/report/pv_loop.hpp>
 #include <cardiac/report/strain_curves.hpp>
+#include <cardiac/report/text.hpp>
+#include <cardiac/report/time_curves.hpp>
+#include <cardiac/strain/peaks.hpp>
 #include "cardiac/report/synthetic_result.hpp"
 
 namespace cardiac {
 namespace {
 
+using ::testing::Contains;
 using ::testing::DoubleNear;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsSupersetOf;
 using ::testing::Not;
 
 long count(const std::string& text, const std::string& what) {
@@ -30,47 +35,8 @@ long count(const std::string& text, const std::string& what) {
 
 std::vector<std::string> files_of(const BeatResult& result) {
   std::vector<std::string> files;
-  for (const Figure& figure : figures(result)) files.push_back(figure.file);
+  for (const Figure& figure : figures(result, test::synthetic_info())) files.push_back(figure.file);
   return files;
-}
-
-TEST(Bullseye, LiesAsInTheStandard) {
-  const auto direction = [](int segment) {
-    const DrawPoint c = bullseye_cell(segment).centre();
-    return std::atan2(c.y, c.x) * 180 / polyaffine::kPi;
-  };
-  for (const int anterior : {1, 7, 13}) EXPECT_NEAR(direction(anterior), 90, 1e-9);
-  for (const int inferior : {4, 10, 15}) EXPECT_NEAR(direction(inferior), -90, 1e-9);
-  EXPECT_NEAR(direction(2), 150, 1e-9);             // anteroseptal: upper left
-  EXPECT_NEAR(direction(3), -150, 1e-9);            // inferoseptal: lower left
-  EXPECT_NEAR(std::abs(direction(14)), 180, 1e-9);  // septal: left
-  EXPECT_NEAR(direction(16), 0, 1e-9);              // lateral: right
-  EXPECT_NEAR(direction(5), -30, 1e-9);
-  EXPECT_NEAR(direction(6), 30, 1e-9);
-  EXPECT_EQ(bullseye_cell(17).centre().x, 0);
-  EXPECT_EQ(bullseye_cell(17).centre().y, 0);
-  EXPECT_THROW(bullseye_cell(18), std::out_of_range);
-}
-
-TEST(Bullseye, CellsTileTheDisc) {
-  double area = 0;
-  for (int segment = 1; segment <= 17; ++segment) {
-    const BullseyeCell c = bullseye_cell(segment);
-    area += (c.outer * c.outer - c.inner * c.inner) * (c.to_deg - c.from_deg) / 360;
-  }
-  EXPECT_NEAR(area, 1, 1e-14);  // of the unit disc, in round-off
-}
-
-TEST(Bullseye, ShowsEverySegmentWithItsValueAndGreyWhereThereIsNone) {
-  Bullseye bullseye{"Peak", "%", ColourScale::diverging, "", "", 1, {}};
-  for (size_t i = 0; i < 16; ++i) bullseye.values[i] = -static_cast<double>(i) - 0.5;
-  bullseye.values[3] = std::numeric_limits<double>::quiet_NaN();
-  const std::string svg = bullseye_svg(bullseye);
-  for (int i = 1; i <= 17; ++i) EXPECT_THAT(svg, HasSubstr(">" + std::to_string(i) + "</text>"));
-  EXPECT_THAT(svg, HasSubstr(">−15.5</text>"));
-  EXPECT_EQ(count(svg, "fill=\"#e0e0e0\""), 2);
-  EXPECT_EQ(count(svg, ">–</text>"), 2);
-  EXPECT_THAT(svg, Not(HasSubstr("nan")));
 }
 
 TEST(Colours, DivergeFromWhiteAndCarryReadableText) {
@@ -124,24 +90,118 @@ TEST(Figures, AreThoseThatTheResultHasDataFor) {
   BeatResult r = test::synthetic_beat();
   EXPECT_THAT(files_of(r),
               ElementsAre("bullseye_longitudinal.svg", "bullseye_circumferential.svg", "bullseye_radial.svg",
-                          "bullseye_activation.svg", "strain_curves.svg", "pv_loop.svg"));
-  for (SegmentInfo& segment : r.segments) segment.activation_ms.reset();
+                          "bullseye_peak_longitudinal.svg", "bullseye_peak_circumferential.svg",
+                          "bullseye_peak_radial.svg", "bullseye_activation.svg", "strain_curves.svg",
+                          "time_curves.svg", "pv_loop.svg"));
   r.ventricles.clear();
-  EXPECT_THAT(files_of(r), ElementsAre("bullseye_longitudinal.svg", "bullseye_circumferential.svg",
-                                       "bullseye_radial.svg", "strain_curves.svg"));
-  EXPECT_TRUE(figures(BeatResult{}).empty());
+  for (SegmentInfo& segment : r.segments) segment.activation_ms.reset();
+  EXPECT_THAT(files_of(r),
+              ElementsAre("bullseye_longitudinal.svg", "bullseye_circumferential.svg", "bullseye_radial.svg",
+                          "bullseye_peak_longitudinal.svg", "bullseye_peak_circumferential.svg",
+                          "bullseye_peak_radial.svg", "strain_curves.svg"));
+  EXPECT_TRUE(figures(BeatResult{}, RunInfo{}).empty());
+}
+
+TEST(Figures, OfTwoVentriclesShowTheRightOneToo) {
+  EXPECT_THAT(files_of(test::synthetic_biventricle()),
+              IsSupersetOf({"bullseye_longitudinal.svg", "bullseye_right_longitudinal.svg",
+                            "bullseye_right_circumferential.svg", "bullseye_right_radial.svg",
+                            "strain_curves.svg", "strain_curves_right.svg"}));
+}
+
+TEST(Figures, OfALoadingHaveNoPeaks) {
+  BeatResult r = test::synthetic_beat();
+  r.has_beat = false;
+  EXPECT_THAT(files_of(r), Not(Contains(HasSubstr("peak"))));
+}
+
+TEST(Figures, MainBullseyeShowsEndSystoleAndThePeakIsNamedAsSuch) {
+  // An infarcted segment: +0.25 × 18 % at its peak 60 ms late, less at end systole.
+  const BeatResult r = test::synthetic_beat(true);
+  const auto peaks = strain_peaks(r.instants, 0, 330);
+  const auto svg_of = [list = figures(r, test::synthetic_info())](const std::string& file) {
+    return std::ranges::find(list, file, &Figure::file)->svg;
+  };
+  const auto text = [](double strain) { return ">" + display_text(100 * strain, 1) + "</text>"; };
+  ASSERT_NE(text(peaks[6].longitudinal.end_systolic), text(peaks[6].longitudinal.value));
+  const std::string main = svg_of("bullseye_longitudinal.svg"),
+                    peak = svg_of("bullseye_peak_longitudinal.svg");
+  EXPECT_THAT(main, HasSubstr(">End-systolic longitudinal strain</text>"));
+  EXPECT_THAT(main, HasSubstr(text(peaks[6].longitudinal.end_systolic)));
+  EXPECT_THAT(peak, HasSubstr(">Peak longitudinal strain</text>"));
+  EXPECT_THAT(peak, HasSubstr(text(peaks[6].longitudinal.value)));
+}
+
+TEST(Figures, UniformActivationHasNoPicture) {
+  BeatResult r = test::synthetic_beat();
+  for (SegmentInfo& segment : r.segments) segment.activation_ms = 100;
+  r.segments[3].activation_ms = 100.4;
+  EXPECT_THAT(files_of(r), Not(Contains("bullseye_activation.svg")));
+  r.segments[3].activation_ms = 140;
+  EXPECT_THAT(files_of(r), Contains("bullseye_activation.svg"));
+  ASSERT_TRUE(activation_span(r));
+  EXPECT_EQ(activation_span(r)->first_ms, 100);
+  EXPECT_EQ(activation_span(r)->last_ms, 140);
+  EXPECT_FALSE(activation_span(BeatResult{}));
 }
 
 TEST(Figures, ShowEveryCurveAndPhase) {
   const BeatResult r = test::synthetic_beat();
   const std::string curves = strain_curves_svg(r), loop = pv_loop_svg(r);
   EXPECT_EQ(count(curves, "<polyline"), 3 * 17);
-  EXPECT_EQ(count(curves, ">ES</text>"), 3);
-  EXPECT_THAT(curves, HasSubstr(">strain (%)</text>"));
+  EXPECT_EQ(count(curves, ">ES</text>"), 9);
+  for (const char* title : {"Longitudinal", "Circumferential", "Radial"})
+    EXPECT_THAT(curves, HasSubstr(">" + std::string(title) + " strain (%)</text>"));
   EXPECT_THAT(curves, HasSubstr("<title>14 apical septal</title>"));
+  for (int s = 1; s <= 17; ++s)
+    EXPECT_EQ(count(curves, "font-weight=\"bold\">" + std::to_string(s) + "</text>"), 3) << s;
   EXPECT_EQ(count(loop, "<polyline"), 4);
   for (const char* text : {">volume (mL)<", ">pressure (mmHg)<", ">ED<", ">ES<"})
     EXPECT_THAT(loop, HasSubstr(text));
+}
+
+TEST(Figures, EveryCurveOfAPanelLooksOfItsOwn) {
+  for (const std::string& svg : {strain_curves_svg(test::synthetic_biventricle()),
+                                 right_strain_curves_svg(test::synthetic_biventricle())}) {
+    // Panels in turn: curves follow each other, the label boxes of a panel come after its curves.
+    std::set<std::string> seen;
+    size_t curves = 0, at = 0;
+    const std::regex line("<polyline [^>]*stroke=\"([^\"]*)\"[^>]*|<rect ");
+    for (std::sregex_iterator i(svg.begin(), svg.end(), line), end; i != end; ++i) {
+      if (!(*i)[1].matched) {
+        EXPECT_EQ(seen.size(), curves);
+        seen.clear(), curves = 0;
+        continue;
+      }
+      ++curves, ++at;
+      const std::string whole = i->str(), dash = "stroke-dasharray";
+      const size_t place = whole.find(dash);
+      seen.insert((*i)[1].str() + (place == std::string::npos ? "" : whole.substr(place)));
+    }
+    EXPECT_GE(at, 36);
+  }
+}
+
+TEST(Figures, RightVentriclesCurvesAreTwelveAStrain) {
+  const std::string curves = right_strain_curves_svg(test::synthetic_biventricle());
+  EXPECT_EQ(count(curves, "<polyline"), 3 * 12);
+  for (int s = 18; s <= 29; ++s)
+    EXPECT_EQ(count(curves, "font-weight=\"bold\">" + std::to_string(s) + "</text>"), 3) << s;
+}
+
+TEST(Figures, TimeCurvesMarkEndDiastoleAndEndSystole) {
+  const std::string one = time_curves_svg(test::synthetic_beat());
+  EXPECT_EQ(count(one, "<polyline"), 2);
+  EXPECT_EQ(count(one, "<title>LV ED</title>"), 2);
+  EXPECT_EQ(count(one, "<title>LV ES</title>"), 2);
+  for (const char* text : {">pressure (mmHg)<", ">volume (mL)<", ">time (ms)<", ">ED<", ">ES<", ">LV<"})
+    EXPECT_THAT(one, HasSubstr(text));
+  const std::string two = time_curves_svg(test::synthetic_biventricle());
+  EXPECT_EQ(count(two, "<polyline"), 4);
+  EXPECT_THAT(two, HasSubstr(">RV<"));
+  BeatResult loading = test::synthetic_beat();
+  loading.has_beat = false;
+  EXPECT_THAT(time_curves_svg(loading), Not(HasSubstr(">ES<")));
 }
 
 TEST(Figures, EscapeNamesAndNeverShowNaN) {
@@ -150,7 +210,10 @@ TEST(Figures, EscapeNamesAndNeverShowNaN) {
   for (Instant& instant : r.instants) instant.strain[5] = {NAN, NAN, NAN, NAN, NAN, NAN, NAN};
   r.ventricles[0].samples[7].pressure_mmHg = NAN;
   r.ventricles[0].es_time_ms = NAN;
-  for (const Figure& figure : figures(r)) {
+  r.ventricles[0].name = "<script>";
+  RunInfo info = test::synthetic_info();
+  info.protocol_json = R"({"region": [{"name": "<script>", "segments": [1, 99]}]})";
+  for (const Figure& figure : figures(r, info)) {
     EXPECT_THAT(figure.svg, Not(HasSubstr("nan")));
     EXPECT_THAT(figure.svg, Not(HasSubstr("<script>")));
   }
@@ -158,11 +221,11 @@ TEST(Figures, EscapeNamesAndNeverShowNaN) {
 
 TEST(Figures, OfAnEarlierRunWithoutDataNowAreRemoved) {
   const test::TemporaryFolder folder;
-  write_figures(test::synthetic_beat(), folder.path());
+  write_figures(test::synthetic_beat(), test::synthetic_info(), folder.path());
   EXPECT_THAT(read_text(folder.path() / "pv_loop.svg"), HasSubstr("</svg>"));
   BeatResult r = test::synthetic_beat();
   r.ventricles.clear();
-  write_figures(r, folder.path());
+  write_figures(r, test::synthetic_info(), folder.path());
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "pv_loop.svg"));
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "strain_curves.svg"));
 }

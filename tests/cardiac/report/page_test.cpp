@@ -2,14 +2,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <regex>
 
 #include <cardiac/report/csv_reader.hpp>
 #include <cardiac/report/page.hpp>
+#include <cardiac/report/tables.hpp>
 #include "cardiac/report/synthetic_result.hpp"
 
 namespace cardiac {
 namespace {
 
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -40,7 +43,7 @@ TEST(Page, EveryFigureHasAText) {
   int figures = 0;
   for (size_t at = page.find("<svg "); at != std::string::npos; at = page.find("<svg ", at + 1), ++figures)
     EXPECT_NE(page.substr(at, page.find('>', at) - at).find("aria-label=\""), std::string::npos);
-  EXPECT_EQ(figures, 6);
+  EXPECT_EQ(figures, 10);
 }
 
 TEST(Page, EscapesEveryText) {
@@ -67,6 +70,74 @@ TEST(Page, ShowsWhyARunStoppedBeforeAnythingElse) {
   EXPECT_LT(page.find("coarse mesh"), page.find("Headline numbers"));
 }
 
+TEST(Page, SaysInTheLargestLettersThatARunDidNotComplete) {
+  BeatResult r = test::synthetic_beat();
+  r.completed = false;
+  const std::string page = page_of(r);
+  EXPECT_THAT(
+      page, HasSubstr("<div class=\"alert stop\" role=\"alert\"><strong>This run did not complete</strong>"));
+  std::smatch title, stop;
+  ASSERT_TRUE(std::regex_search(page, title, std::regex("h1\\{font-size:([0-9.]+)rem")));
+  ASSERT_TRUE(std::regex_search(page, stop, std::regex("\\.alert\\.stop strong\\{font-size:([0-9.]+)rem")));
+  EXPECT_GT(std::stod(stop[1]), std::stod(title[1]));
+}
+
+TEST(Page, SaysWhatKindOfMeanTheGlobalStrainIs) {
+  EXPECT_THAT(page_of(test::synthetic_beat()),
+              HasSubstr("means of the local strain over the volume of the wall"));
+}
+
+TEST(Page, PutsNumbersBesidePublishedOnesWithTheirSource) {
+  BeatResult r = test::synthetic_beat();
+  r.strain = {-12.3, -25.1, 41.7, 12.6};
+  const std::string page = page_of(r);
+  for (const char* text : {"healthy adults 50 to 70", "healthy adults 110 to 130", "−20.1 (−20.9 to −19.3)",
+                           "Vo et al. 2018", "2346 people"})
+    EXPECT_THAT(page, HasSubstr(text)) << text;
+  EXPECT_THAT(page, HasSubstr("<td>−12.3\u00a0%</td><td class=\"left\">weaker</td>"));
+  EXPECT_THAT(page, HasSubstr("<td>−25.1\u00a0%</td><td class=\"left\">stronger</td>"));
+  EXPECT_THAT(page, HasSubstr("<td>41.7\u00a0%</td><td class=\"left\">within</td>"));
+  EXPECT_THAT(page, Not(HasSubstr("healthy adults 45 to 65")));
+  EXPECT_THAT(page_of(test::synthetic_biventricle()), HasSubstr("healthy adults 45 to 65"));
+}
+
+TEST(Page, TellsWhatWasTakenForGranted) {
+  const std::string page = page_of(test::synthetic_beat());
+  for (const char* text : {"free of stress", "base is clamped", "long axis runs from the apex", "(0, 1, 0)"})
+    EXPECT_THAT(page, HasSubstr(text)) << text;
+  EXPECT_THAT(page_of(test::synthetic_biventricle()), Not(HasSubstr("(0, 1, 0)")));
+}
+
+TEST(Page, NamesRegionsInPicturesAndTable) {
+  RunInfo info = test::synthetic_info();
+  info.protocol_json = R"({"region": [{"name": "anterior scar", "segments": [1, 7]}, {"segments": [7]}]})";
+  const std::string page = report_page(test::synthetic_beat(true), info, "run");
+  EXPECT_THAT(page, HasSubstr(">anterior scar: segments 1, 7</text>"));
+  EXPECT_THAT(page, HasSubstr("basal anterior (A)<"));
+  EXPECT_THAT(page, HasSubstr("mid anterior (A) (B)<"));
+  EXPECT_THAT(page, HasSubstr("(A) anterior scar. (B) region 2."));
+}
+
+TEST(Page, SaysThatActivationIsUniformInsteadOfDrawingIt) {
+  BeatResult r = test::synthetic_beat();
+  for (SegmentInfo& segment : r.segments) segment.activation_ms = 100;
+  const std::string page = page_of(r);
+  EXPECT_THAT(page, HasSubstr("Every segment is activated at 100 ms."));
+  EXPECT_THAT(page, Not(HasSubstr(">Activation time<")));
+}
+
+TEST(Page, LeavesAnIndexOpenThatComparesUnlikeThings) {
+  // Segment 1 is stretched by 5 % at end systole and shortens by 2 % afterwards.
+  BeatResult r = test::synthetic_beat();
+  for (Instant& i : r.instants)
+    i.strain[0].longitudinal = i.time_ms <= 400 ? 0.05 * std::sin(polyaffine::kPi * i.time_ms / 400)
+                                                : -0.02 * std::sin(polyaffine::kPi * (i.time_ms - 400) / 400);
+  const std::string page = page_of(r);
+  EXPECT_THAT(page, HasSubstr("<td>−2.0</td><td>600</td><td>–</td>"));
+  EXPECT_THAT(peaks_table(r), HasSubstr("basal anterior,-0.02,600,"));
+  EXPECT_THAT(peaks_table(r), ContainsRegex("1,basal anterior,-0.02,600,[^,]*,[^,]*,,"));
+}
+
 TEST(Page, ShowsDashesForWhatDoesNotExist) {
   BeatResult r = test::synthetic_beat();
   r.strain.gls_percent = NAN;
@@ -85,7 +156,7 @@ TEST(Page, OfALoadingSpeaksOfNoBeat) {
   const std::string page = page_of(r);
   EXPECT_THAT(page, HasSubstr("Prescribed loading"));
   EXPECT_THAT(page, HasSubstr("Volume at the end"));
-  for (const char* text : {"Ejection fraction", "PSI", "typical", ">ES<"})
+  for (const char* text : {"Ejection fraction", "PSI", "typical", "healthy adults 90", ">ES<", "Peak strain"})
     EXPECT_THAT(page, Not(HasSubstr(text)));
 }
 

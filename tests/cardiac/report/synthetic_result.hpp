@@ -108,6 +108,28 @@ inline BeatResult synthetic_beat(bool infarct = false) {
   return r;
 }
 
+/// The same beat with a right ventricle: segments 18–29 and a cavity "rv", later and weaker.
+inline BeatResult synthetic_biventricle() {
+  BeatResult r = synthetic_beat();
+  for (int s = 18; s <= 29; ++s)
+    r.segments.push_back({s, "RV " + std::to_string(s), 2 + 0.1 * (s % 5), 22.0 + 1.7 * (s % 7)});
+  for (Instant& instant : r.instants) {
+    for (int s = 17; s < 29; ++s) {
+      SegmentStrain e = instant.strain[s % 17];
+      for (double* value : {&e.longitudinal, &e.circumferential, &e.radial}) *value *= 0.8 + 0.02 * (s - 17);
+      instant.strain.push_back(e);
+      instant.frames.push_back(instant.frames[s % 17]);
+    }
+  }
+  VentricleSummary rv = r.ventricles[0];
+  rv.name = "rv";
+  rv.edv_mL = 131, rv.esv_mL = 59.8, rv.ef_percent = 54.4, rv.peak_pressure_mmHg = 29.4, rv.edp_mmHg = 4.1;
+  rv.es_time_ms = 345;
+  for (CavitySample& s : rv.samples) s.volume_mL += 9.6, s.pressure_mmHg *= 0.24;
+  r.ventricles.push_back(rv);
+  return r;
+}
+
 inline RunInfo synthetic_info() {
   return {"0.1.0",
           R"({"mesh": {"file": "meshes/healthy_lv.vtu", "length_unit": "mm"}, "time": {"rate_bpm": 75}})", 7};

@@ -64,20 +64,42 @@ TEST(StrainPeaks, PeakWithinSystoleHasNoPostSystolicIndex) {
   EXPECT_EQ(p.post_systolic_index_percent, 0);
 }
 
-TEST(StrainPeaks, StretchAtEndSystoleBeforeLateShorteningExceedsHundredPercent) {
+TEST(StrainPeaks, StretchAtEndSystoleBeforeLateShorteningHasNoIndex) {
   const auto curve = [](double t) { return 0.05 * half_wave(t, 200, 400) - 0.1 * half_wave(t, 400, 800); };
   const StrainPeak p = strain_peaks(beat_of(curve), 0, 300)[0].longitudinal;
   EXPECT_DOUBLE_EQ(p.end_systolic, 0.05);
   EXPECT_DOUBLE_EQ(p.systolic, 0.05);
-  EXPECT_NEAR(p.post_systolic_index_percent, 150, 1e-12);
+  EXPECT_TRUE(std::isnan(p.post_systolic_index_percent));  // the quotient would be 150 %
+}
+
+TEST(StrainPeaks, NoIndexAfterAlmostNoStrainAtEndSystole) {
+  // The same late shortening by 0.1 after 0.8 of the least strain at ES, and after 1.2 of it.
+  const auto curve = [](double share) {
+    return [share](double t) {
+      return -share * kLeastEndSystolicStrain * half_wave(t, 200, 400) - 0.1 * half_wave(t, 400, 800);
+    };
+  };
+  const StrainPeak still = strain_peaks(beat_of(curve(0.8)), 0, 300)[0].longitudinal;
+  EXPECT_NEAR(still.end_systolic, -0.008, 1e-15);
+  EXPECT_TRUE(std::isnan(still.post_systolic_index_percent));
+  const StrainPeak moves = strain_peaks(beat_of(curve(1.2)), 0, 300)[0].longitudinal;
+  EXPECT_NEAR(moves.post_systolic_index_percent, 88, 1e-12);
+}
+
+TEST(StrainPeaks, SystolicShorteningBeforeStretchAtEndSystoleHasNoIndex) {
+  const auto curve = [](double t) { return -0.02 * half_wave(t, 0, 100) + 0.05 * half_wave(t, 100, 500); };
+  const StrainPeak p = strain_peaks(beat_of(curve), 0, 300)[0].longitudinal;
+  EXPECT_DOUBLE_EQ(p.time_ms, 50);
+  EXPECT_DOUBLE_EQ(p.end_systolic, 0.05);
+  EXPECT_TRUE(std::isnan(p.post_systolic_index_percent));
 }
 
 TEST(StrainPeaks, SystoleMayRunOverTheEndOfTheBeat) {
   // ED at 600, ES at 100: a peak at 0 is systolic, one at 400 is not.
   const auto early = [](double t) { return -0.2 * (t < 100 ? 1 - t / 100 : 0); };
   EXPECT_EQ(strain_peaks(beat_of(early), 600, 100)[0].longitudinal.post_systolic_index_percent, 0);
-  const auto late = [](double t) { return -0.2 * half_wave(t, 300, 500); };
-  EXPECT_DOUBLE_EQ(strain_peaks(beat_of(late), 600, 100)[0].longitudinal.post_systolic_index_percent, 100);
+  const auto late = [](double t) { return -0.2 * half_wave(t, 300, 500) - 0.05 * half_wave(t, 0, 200); };
+  EXPECT_DOUBLE_EQ(strain_peaks(beat_of(late), 600, 100)[0].longitudinal.post_systolic_index_percent, 75);
 }
 
 TEST(StrainPeaks, EndSystoleIsInterpolatedBetweenOutputTimes) {
