@@ -1,5 +1,6 @@
 #include <cardiac/report/page_numbers.hpp>
 
+#include <cmath>
 #include <vector>
 
 #include <cardiac/report/haemodynamics_text.hpp>
@@ -69,6 +70,30 @@ std::string strain_cards(const BeatResult& r) {
          number_card("Twist", display_text(r.strain.twist_deg, 1), "°", note(Measured::twist)) + "</div>\n";
 }
 
+// What clinics measure: contours at three depths, and the base.
+std::string contour_table(const BeatResult& r) {
+  std::string rows;
+  const auto add = [&rows](const std::string& what, const LayerStrain& layers) {
+    rows += "<tr>" + table_cell(what, "left");
+    for (const double value : {layers.endocardial_percent, layers.midwall_percent, layers.epicardial_percent})
+      rows += table_cell(std::isfinite(value) ? display_text(value, 1) + "\u00a0%" : "");
+    rows += "</tr>\n";
+  };
+  add("Longitudinal, left ventricle", r.strain.longitudinal);
+  add("Circumferential, left ventricle", r.strain.circumferential);
+  if (r.right_strain) add("Longitudinal, right free wall", r.right_strain->longitudinal);
+  std::string html =
+      "<table><thead><tr><th class=\"left\">Strain of contours</th><th>endocardial</th><th>mid-wall</th>"
+      "<th>epicardial</th></tr></thead><tbody>\n" +
+      rows + "</tbody></table>\n<p class=\"small\">Wall thickening " +
+      display_text(r.strain.wall_thickening_percent, 1) + " %, the base comes " +
+      display_text(r.strain.base_excursion_mm, 1) + " mm closer to the apex";
+  if (r.right_strain)
+    html += "; mean longitudinal strain of the right free wall " +
+            display_text(r.right_strain->gls_percent, 1) + " %";
+  return html + ".</p>\n";
+}
+
 std::string what_a_mean_is() {
   return "<p class=\"small\"><strong>GLS, GCS and GRS are means of the local strain over the volume of the "
          "wall</strong>, weighted by the volume of each segment. Clinics measure along contours drawn in "
@@ -135,7 +160,7 @@ std::string numbers_section(const BeatResult& r) {
   if (r.instants.empty())
     html += "<p>No strain was computed.</p>\n";
   else
-    html += strain_cards(r) + what_a_mean_is();
+    html += strain_cards(r) + what_a_mean_is() + contour_table(r);
   return html + (r.has_beat ? normal_table(r) : "");
 }
 
