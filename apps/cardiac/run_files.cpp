@@ -40,6 +40,7 @@ void write_mesh_series(const Ventricle& ventricle, const Protocol& protocol, con
   const std::vector<std::string> lcr{"longitudinal", "circumferential", "radial"};
   polyaffine::WriteFields fields;
   fields.integer_cell_fields["segment"] = anatomy.segment;
+  fields.single = {"strain_lcr", "segment_strain_lcr", "fibre"};
   fields.components = {{"strain_lcr", lcr}, {"segment_strain_lcr", lcr}};
   for (const SegmentInfo& segment : result.segments) fields.texts["segment_name"].push_back(segment.name);
   if (ventricle.contraction)

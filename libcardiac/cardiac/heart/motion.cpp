@@ -17,7 +17,7 @@ Motion::Motion(const Ventricle& ventricle, const std::vector<ControlNode>& nodes
       gauge_(*anatomy_.coordinates, points_),
       at_points_(*ventricle.discretisation.basis, points_.tet, points_.barycentric),
       at_vertices_(vertex_displacement(ventricle)),
-      F_ed_(polyaffine::evaluate_field(table_, c_ed)),
+      axes_ed_(gauge_.reference_axes(polyaffine::evaluate_field(table_, c_ed))),
       points_ed_(gauge_.positions() + at_points_.apply(c_ed)),
       vertices_ed_(vertices(c_ed)),
       fit_(anatomy_.mesh, anatomy_.segment, nodes, vertices_ed_) {
@@ -29,7 +29,7 @@ Motion::Motion(const Ventricle& ventricle, const std::vector<ControlNode>& nodes
 Instant Motion::instant(double time_ms, const Vector& c) const {
   Instant out;
   out.time_ms = time_ms;
-  out.strain = gauge_.strain(polyaffine::evaluate_field(table_, c), F_ed_);
+  out.strain = gauge_.strain(polyaffine::evaluate_field(table_, c), axes_ed_);
   const Points x = vertices(c);
   out.frames = fit_.frames(x);
   const auto rotation = gauge_.rotation_deg(gauge_.positions() + at_points_.apply(c), points_ed_);

@@ -35,7 +35,7 @@ class Motion {
   polyaffine::FieldTable table_;
   SegmentGauge gauge_;
   polyaffine::DisplacementMap at_points_, at_vertices_;
-  polyaffine::Matrix F_ed_;
+  std::vector<polyaffine::Mat3> axes_ed_;
   polyaffine::Points points_ed_, vertices_ed_;
   AffineFit fit_;
   std::vector<double> volumes_;  ///< of the segments

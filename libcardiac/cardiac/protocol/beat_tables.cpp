@@ -251,7 +251,7 @@ Table output_table() {
   table
       .key("interval_ms", &Output::interval_ms,
            {.unit = "ms", .range = {0.1, 1e5}, .meaning = "time between two rows or meshes"})
-      .key("tables", &Output::tables, {.meaning = "strain, affine and cavity tables (.csv)"})
+      .key("tables", &Output::tables, {.meaning = "strain, affine, global strain and cavity tables (.csv)"})
       .key("figures", &Output::figures,
            {.meaning = "bull's-eyes, strain curves, pressure–volume loop, report"})
       .key("mesh_series", &Output::mesh_series, {.meaning = "deformed meshes (.vtu, .pvd)"})

@@ -16,13 +16,15 @@ std::string strain_table(const BeatResult& result);
 /// strain_peaks.csv: a row per segment; definitions at strain_peaks().
 std::string peaks_table(const BeatResult& result);
 /// affine.csv: a row per output time and segment: the affine map that comes closest to the segment's motion
-/// since end diastole (without a beat: since the mesh), the same reference as strain.csv,
+/// since end diastole (without a beat: since the first state, in a passive loading the mesh), the same
+/// reference as strain.csv,
 ///   x = q + R (A Rᵀ (y − q) + t)
 /// from the end-diastolic position y of its material to the present one x, with the node's end-diastolic
 /// position q and its axes R from control_nodes.csv (see AffineFit). A (local axes), t in mm; of the polar
 /// decomposition A = R U the rotation angle of R and the stretches, largest first (the smallest negative in a
-/// map that turns the segment inside out); the determinant of A; and the misfit, the share of the motion that
-/// no affine map holds (empty where nothing has moved).
+/// map that turns the segment inside out); the determinant of A (not the change of volume of a bent segment,
+/// see AffineFit; that is in strain.csv); and the misfit, the share of the motion that no affine map holds
+/// (empty where nothing has moved).
 std::string affine_table(const BeatResult& result);
 /// control_nodes.csv: a row per segment: end-diastolic position of its control node (mm) and its axes l
 /// (longitudinal), c (circumferential) and r (radial) in the coordinates of the mesh.

@@ -24,15 +24,28 @@ SegmentGauge::SegmentGauge(const VentricularCoordinates& coordinates, const poly
   }
 }
 
+std::vector<Mat3> SegmentGauge::reference_axes(const Matrix& F_ed) const {
+  std::vector<Mat3> out;
+  for (Eigen::Index q = 0; q < F_ed.cols(); ++q) {
+    const Mat3 reference = F_ed.col(q).reshaped(3, 3);
+    const Eigen::JacobiSVD<Mat3> svd(reference, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const Mat3 rotation = svd.matrixU() * svd.matrixV().transpose();
+    out.emplace_back(reference.inverse() * rotation * axes_[q]);
+  }
+  return out;
+}
+
 std::vector<SegmentStrain> SegmentGauge::strain(const Matrix& F, const Matrix& F_ed) const {
+  return strain(F, reference_axes(F_ed));
+}
+
+std::vector<SegmentStrain> SegmentGauge::strain(const Matrix& F,
+                                                const std::vector<Mat3>& reference_axes) const {
   const int count = num_segments(coordinates_);
   std::vector<SegmentStrain> mean(count, SegmentStrain{0, 0, 0, 0, 0, 0, 0});
   std::vector<double> volume(count, 0.0);
   for (Eigen::Index q = 0; q < F.cols(); ++q) {
-    const Mat3 reference = F_ed.col(q).reshaped(3, 3);
-    const Eigen::JacobiSVD<Mat3> svd(reference, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const Mat3 rotation = svd.matrixU() * svd.matrixV().transpose();
-    const Mat3 relative = F.col(q).reshaped(3, 3) * reference.inverse() * rotation * axes_[q];
+    const Mat3 relative = F.col(q).reshaped(3, 3) * reference_axes[q];
     const Mat3 C = relative.transpose() * relative;
     const double w = weights_[q];
     SegmentStrain& s = mean[segment_[q] - 1];

@@ -18,6 +18,12 @@ class SegmentGauge {
   /// axis, the shears ½ C_ab, and det F_rel; means weighted by volume. One a segment, index 0 for segment 1.
   std::vector<SegmentStrain> strain(const polyaffine::Matrix& F, const polyaffine::Matrix& F_ed) const;
 
+  /// The same for many F against one end diastole: with the axes of reference_axes(F_ed).
+  std::vector<SegmentStrain> strain(const polyaffine::Matrix& F,
+                                    const std::vector<polyaffine::Mat3>& reference_axes) const;
+  /// F_ed⁻¹ times the turned local axes, at each point.
+  std::vector<polyaffine::Mat3> reference_axes(const polyaffine::Matrix& F_ed) const;
+
   /// Mean over each segment of the Green–Lagrange strain ½(FᵀF − I) against the reference configuration, in
   /// the local axes (longitudinal, circumferential, radial), weighted by volume.
   std::vector<polyaffine::Mat3> green_lagrange(const polyaffine::Matrix& F) const;

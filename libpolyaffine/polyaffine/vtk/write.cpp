@@ -4,6 +4,7 @@
 #include <vtkCellType.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
+#include <vtkFloatArray.h>
 #include <vtkIntArray.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -48,6 +49,18 @@ vtkSmartPointer<vtkDoubleArray> double_array(const std::string& name, const Matr
   array->SetNumberOfComponents(static_cast<int>(field.rows()));
   array->SetNumberOfTuples(field.cols());
   std::copy(field.data(), field.data() + field.size(), array->GetPointer(0));
+  return array;
+}
+
+vtkSmartPointer<vtkDataArray> field_array(const WriteFields& fields, const std::string& name,
+                                          const Matrix& field) {
+  if (!fields.single.contains(name)) return double_array(name, field);
+  auto array = vtkSmartPointer<vtkFloatArray>::New();
+  array->SetName(name.c_str());
+  array->SetNumberOfComponents(static_cast<int>(field.rows()));
+  array->SetNumberOfTuples(field.cols());
+  std::transform(field.data(), field.data() + field.size(), array->GetPointer(0),
+                 [](double value) { return static_cast<float>(value); });
   return array;
 }
 
@@ -138,7 +151,7 @@ void write_vtu(const path& file, const TetMesh& mesh, const WriteFields& fields)
 
   for (const auto& [name, field] : fields.point_fields) {
     check_width(file, name, field, mesh.num_points(), "points");
-    grid->GetPointData()->AddArray(double_array(name, field));
+    grid->GetPointData()->AddArray(field_array(fields, name, field));
   }
   for (const auto& [name, field] : fields.cell_fields) {
     check_width(file, name, field, mesh.num_tets(), "tets");
@@ -147,7 +160,7 @@ void write_vtu(const path& file, const TetMesh& mesh, const WriteFields& fields)
     all.leftCols(mesh.num_tets()) = field;
     for (std::size_t i = 0; i < faces.size(); ++i)
       all.col(mesh.num_tets() + static_cast<Eigen::Index>(i)) = field.col(mesh.boundary_tets()[faces[i]]);
-    grid->GetCellData()->AddArray(double_array(name, all));
+    grid->GetCellData()->AddArray(field_array(fields, name, all));
   }
   for (const auto& [name, field] : fields.integer_cell_fields) {
     check_width(file, name, Matrix(1, field.size()), mesh.num_tets(), "tets");

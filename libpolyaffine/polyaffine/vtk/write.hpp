@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct WriteFields {
   std::map<std::string, std::vector<int>> integer_cell_fields{};  ///< a number a tet
   /// Names of the components of a field (those above), by the field's name.
   std::map<std::string, std::vector<std::string>> components{};
+  std::set<std::string> single{};  ///< fields (those above) written with single precision, in half the space
   std::map<std::string, std::vector<std::string>> texts{};  ///< field data: lists of texts
   std::map<std::string, double> values{};                   ///< field data: single numbers
 };

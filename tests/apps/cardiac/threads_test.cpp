@@ -44,7 +44,8 @@ TEST_P(Threads, OneOrTwoGiveTheSameBits) {
     run("one");
   }
   unsetenv("OPENBLAS_NUM_THREADS");
-  for (const char* table : {"strain.csv", "strain_peaks.csv", "affine.csv", "global_strain.csv", "cavity.csv"}) {
+  for (const char* table :
+       {"strain.csv", "strain_peaks.csv", "affine.csv", "global_strain.csv", "cavity.csv"}) {
     const std::string text = whole_file(folder.path / "one" / table);
     EXPECT_GT(text.size(), 100) << table;
     EXPECT_EQ(text, whole_file(folder.path / "two" / table)) << table;

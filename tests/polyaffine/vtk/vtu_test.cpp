@@ -123,12 +123,15 @@ TEST_F(Vtu, ComponentsAndTextsAreNamed) {
   fields.integer_cell_fields["part"].assign(mesh.num_tets(), 7);
   fields.texts["names"] = {"one", "two, with \"quotes\""};
   fields.values["time_ms"] = 12.5;
+  fields.single = {"strain"};
   write_vtu(in("named.vtu"), mesh, fields);
   vtkNew<vtkXMLUnstructuredGridReader> reader;
   reader->SetFileName(in("named.vtu").c_str());
   reader->Update();
   vtkCellData* cells = reader->GetOutput()->GetCellData();
   EXPECT_STREQ(cells->GetArray("strain")->GetComponentName(1), "across");
+  EXPECT_EQ(cells->GetArray("strain")->GetTuple2(3)[1],
+            static_cast<float>(fields.cell_fields["strain"](1, 3)));
   ASSERT_NE(vtkIntArray::SafeDownCast(cells->GetArray("part")), nullptr);
   EXPECT_EQ(cells->GetArray("part")->GetTuple1(0), 7);
   vtkFieldData* all = reader->GetOutput()->GetFieldData();
