@@ -1,9 +1,11 @@
 #include "cardiac/heart/result.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <limits>
 
 #include <cardiac/core/units.hpp>
+#include <cardiac/heart/axes_check.hpp>
 #include <cardiac/heart/reduced_points.hpp>
 #include <cardiac/strain/affine_parameters.hpp>
 #include <cardiac/strain/segment_strain.hpp>
@@ -99,6 +101,22 @@ KeySteps find_key_steps(const HeartPath& path, const Protocol& protocol, bool ri
   return out;
 }
 
+// Least det F of 9 × points deformation gradients.
+double least_determinant(const Matrix& F) {
+  double out = 1;
+  for (const auto& at : F.colwise()) out = std::min(out, polyaffine::Mat3(at.reshaped(3, 3)).determinant());
+  return out;
+}
+
+void warn_of_crushing(bool full_order, BeatResult& out) {
+  if (out.min_det_F >= kCrushed) return;
+  out.warnings.push_back("the wall was compressed to " + std::to_string(100 * out.min_det_F) +
+                         " % of its volume somewhere (min_det_F): the numbers are not those of muscle; "
+                         "lower the load, or raise " +
+                         (full_order ? "tissue.bulk_modulus_kPa"
+                                     : "reduction.local_bulk_modulus_kPa (60 where muscle contracts)"));
+}
+
 }  // namespace
 
 KeySteps key_steps(const HeartPath& path, const Protocol& protocol) {
@@ -137,14 +155,14 @@ BeatResult describe_path(const Ventricle& ventricle, const std::vector<ControlNo
   out.completed = path.completed;
   out.stop_reason = path.stop_reason;
   out.warnings = path.warnings;
-  if (path.min_det_F < kCrushed)
-    out.warnings.push_back("the wall was compressed to " + std::to_string(100 * path.min_det_F) +
-                           " % of its volume somewhere (min_det_F): the numbers are not those of muscle; "
-                           "lower the load or raise tissue.bulk_modulus_kPa");
+  if (d.frames) axes_of(anatomy, protocol, out.warnings);
   // A trained rule keeps forces and volumes; means over segments are those of all points.
   const Ventricle& told = ventricle.all_points ? *ventricle.all_points : ventricle;
   out.segments = segment_info(told);
-  if (path.steps.empty()) return out;
+  if (path.steps.empty()) {
+    warn_of_crushing(d.sparse, out);
+    return out;
+  }
 
   const KeySteps key = key_steps(path, protocol);
   out.ventricles.push_back(summarise(path, key, false, out.has_beat));
@@ -160,12 +178,15 @@ BeatResult describe_path(const Ventricle& ventricle, const std::vector<ControlNo
 
   const Matrix F_ed = gradients(path.steps[key.ed].c);
   for (const HeartState& state : path.outputs) {
-    Instant instant{state.time_ms, gauge.strain(gradients(state.c), F_ed), {}};
+    const Matrix F = gradients(state.c);
+    out.min_det_F = std::min(out.min_det_F, least_determinant(F));
+    Instant instant{state.time_ms, gauge.strain(F, F_ed), {}};
     instant.frames =
         frames ? affine_parameters(*frames, nodes, state.c)
                : fit_affine(nodes, gauge.segment(), gauge.positions(), positions(state.c), gauge.weights());
     out.instants.push_back(std::move(instant));
   }
+  warn_of_crushing(d.sparse, out);
   std::vector<double> volumes;
   for (const auto& s : out.segments) volumes.push_back(s.volume_mL);
   out.strain = global_strain(
