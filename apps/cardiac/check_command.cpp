@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 
+#include <cardiac/heart/axes_check.hpp>
 #include <cardiac/heart/volume_check.hpp>
 #include <polyaffine/core/error.hpp>
 
@@ -32,6 +33,12 @@ void check(const CheckOptions& options) {
   print_warnings(protocol.warnings);
   const VolumeCheck found = check_volume(anatomy, protocol);
   std::cout << std::setprecision(3);
+  std::vector<std::string> axes_warnings;
+  const bool heart_axes = axes_of(*anatomy, protocol, axes_warnings) == protocol::Axes::heart;
+  print_line("axes",
+             protocol.reduction.weights == protocol::Weights::tents && heart_axes ? "heart" : "cartesian");
+  print_line("radial axis, off by", radial_misfit_deg(*anatomy), "degrees from the way through the wall");
+  print_warnings(axes_warnings);
   print_line("displacement unknowns", found.displacements);
   if (found.inf_sup) {
     const auto& [displacements, pressures, values, spurious] = *found.inf_sup;

@@ -1,5 +1,8 @@
 #include "cardiac/heart/motion.hpp"
 
+#include <Eigen/LU>
+#include <algorithm>
+
 #include <cardiac/heart/reduced_points.hpp>
 #include <cardiac/heart/vertex_displacement.hpp>
 
@@ -29,7 +32,10 @@ Motion::Motion(const Ventricle& ventricle, const std::vector<ControlNode>& nodes
 Instant Motion::instant(double time_ms, const Vector& c) const {
   Instant out;
   out.time_ms = time_ms;
-  out.strain = gauge_.strain(polyaffine::evaluate_field(table_, c), axes_ed_);
+  const polyaffine::Matrix F = polyaffine::evaluate_field(table_, c);
+  for (const auto& at : F.colwise())
+    out.min_det_F = std::min(out.min_det_F, polyaffine::Mat3(at.reshaped(3, 3)).determinant());
+  out.strain = gauge_.strain(F, axes_ed_);
   const Points x = vertices(c);
   out.frames = fit_.frames(x);
   const auto rotation = gauge_.rotation_deg(gauge_.positions() + at_points_.apply(c), points_ed_);

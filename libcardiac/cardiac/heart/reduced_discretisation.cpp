@@ -7,6 +7,7 @@
 #include <cardiac/anatomy/biventricular_frames.hpp>
 #include <cardiac/anatomy/border_frames.hpp>
 #include <cardiac/fibres/helix.hpp>
+#include <cardiac/heart/axes_check.hpp>
 #include <cardiac/heart/reduced_points.hpp>
 #include <polyaffine/geometry/geodesic_regions.hpp>
 #include <polyaffine/kinematics/region_frames.hpp>
@@ -63,7 +64,8 @@ void add_tent_basis(const Anatomy& anatomy, const Protocol& protocol, Discretisa
   out.frames = frames(true);
   out.pressure_frames = frames(false);
   const auto* both = dynamic_cast<const BiventricularFrames*>(out.frames.get());
-  const bool heart_axes = protocol.reduction.axes == protocol::Axes::heart;
+  std::vector<std::string> told_with_the_result;
+  const bool heart_axes = axes_of(anatomy, protocol, told_with_the_result) == protocol::Axes::heart;
   std::vector<FrameFunctions> functions;
   const auto own = independent(*out.frames, monomials(protocol));
   for (int i = 0; i < out.frames->num_frames(); ++i) {

@@ -35,10 +35,10 @@ constexpr double kDrawnIn = 1e-3;
 // Gauss points of a cell of strain points, along the wall and through its depth, in which fibres turn by
 // 120°.
 constexpr int kStrainAlong = 2, kStrainDepth = 4;
-// Polynomials kept exact in a cell that is no box, along u, ψ and the depth, the second where functions are
-// quadratic along the wall; and their total degree on a surface.
-constexpr polyaffine::CellDegree kCellDegree{4, 4, 8}, kBentCellDegree{6, 6, 8};
-constexpr int kSurfaceDegree = 4;
+// Polynomials kept exact in a cell that is no box, through its depth, where fibres turn, and in the cells of
+// strain points.
+constexpr int kDepthDegree = 8;
+constexpr polyaffine::CellDegree kStrainCellDegree{4, 4, kDepthDegree};
 
 // Cell of each candidate point and its place in the cell, each coordinate 0 to 1.
 struct Cells {
@@ -148,13 +148,15 @@ Cells region_cells(const Anatomy& anatomy, const Discretisation& d, const WallPo
   return out;
 }
 
-// Highest power of the frames' functions along, around and through the wall; at least 1.
-std::array<int, 3> degrees(const polyaffine::FrameBasis& basis) {
+// Highest power of the frames' functions along, around and through the wall, whatever the axes of their
+// coefficients; at least 1. That of the cap, of degree two at most, has cells of its own (wall_at_apex).
+std::array<int, 3> degrees(const polyaffine::FrameBasis& basis, int cap) {
   std::array<int, 3> out{1, 1, 1};
-  for (const auto& frame : basis.frames())
-    if (frame.local_axes)
-      for (const Monomial& m : frame.monomials)
-        for (int k = 0; k < 3; ++k) out[k] = std::max(out[k], m[k]);
+  for (std::size_t i = 0; i < basis.frames().size(); ++i) {
+    if (static_cast<int>(i) == cap) continue;
+    for (const Monomial& m : basis.frames()[i].monomials)
+      for (int k = 0; k < 3; ++k) out[k] = std::max(out[k], m[k]);
+  }
   return out;
 }
 
@@ -162,20 +164,22 @@ std::array<int, 3> degrees(const polyaffine::FrameBasis& basis) {
 // most, as many each way; of surfaces, whose error no other point makes up for, one more where the wall can
 // bend within a cell. More rings than AHA's lessen the error along the wall and with it what the points may
 // add: one more through the depth, where cells stay as they are, and on surfaces. And the polynomials kept
-// exact in a cell that is no box.
+// exact in a cell that is no box (on a surface: their total degree): squares of the functions times a linear
+// weight, and two degrees more along the wall for sigmoid weights, which bend.
 struct Counts {
   polyaffine::CellCounts wall, wall_at_apex, surface, surface_at_apex;
   polyaffine::CellDegree exact;
 };
-Counts counts_for(const std::array<int, 3>& degree, bool more_rings) {
+Counts counts_for(const std::array<int, 3>& degree, bool more_rings, bool sigmoid) {
   const int depth = std::max(more_rings ? 4 : 3, degree[2] + 1);
   const bool bent = degree[0] > 1 || degree[1] > 1;
+  const int along = 2 * std::max(degree[0], degree[1]) + (sigmoid ? 4 : 2);
   const int surface = bent || more_rings ? 3 : 2, surface_at_apex = bent ? depth + 1 : depth;
   return {{degree[0] + 1, degree[1] + 1, depth},
           {depth, depth, depth},
           {surface, surface, 1},
           {surface_at_apex, surface_at_apex, 1},
-          bent ? kBentCellDegree : kCellDegree};
+          {along, along, std::max(kDepthDegree, 2 * degree[2] + 2)}};
 }
 
 }  // namespace
@@ -221,7 +225,8 @@ void add_reduced_points(const Anatomy& anatomy, const Protocol& protocol, Discre
   const VentricularCoordinates& heart = *anatomy.coordinates;
   const LagrangeBasis& geometry = heart.space();
   const bool all_points = protocol.reduction.integration == protocol::Integration::gauss;
-  const Counts counts = counts_for(degrees(*out.frame_basis), std::ssize(out.layout.rings) > kAhaRings);
+  const Counts counts = counts_for(degrees(*out.frame_basis, out.layout.cap()),
+                                   std::ssize(out.layout.rings) > kAhaRings, !out.frames);
   const auto surfaces = {&out.cavity_points, &out.right_cavity_points, &out.epicardium_points};
   if (!out.frames) {  // sigmoid weights: regions are no boxes
     const WallPoints candidates = geometry.wall_points(kCandidateDegree);
@@ -238,7 +243,8 @@ void add_reduced_points(const Anatomy& anatomy, const Protocol& protocol, Discre
       if (points->tet.empty()) continue;
       const Cells own = region_cells(
           anatomy, out, WallPoints{points->tet, points->barycentric, points->weights, points->starts});
-      *points = polyaffine::compress_surface_cells(*points, own.cell, own.place.topRows<2>(), kSurfaceDegree);
+      *points =
+          polyaffine::compress_surface_cells(*points, own.cell, own.place.topRows<2>(), counts.exact[0]);
     }
     return;
   }
@@ -258,7 +264,7 @@ void add_reduced_points(const Anatomy& anatomy, const Protocol& protocol, Discre
     if (points->tet.empty()) continue;
     const Cells own = tent_cells(cells, *points);
     *points = polyaffine::gauss_surface_cells(*points, own.cell, own.place.topRows<2>(), cells,
-                                              surface_counts, kSurfaceDegree, geometry);
+                                              surface_counts, counts.exact[0], geometry);
   }
 }
 
@@ -273,11 +279,11 @@ polyaffine::WallPoints strain_points(const Anatomy& anatomy, const Discretisatio
   const Cells of_left = tent_cells(cells, left_wall);
   const auto counts = [](int) { return polyaffine::CellCounts{kStrainAlong, kStrainAlong, kStrainDepth}; };
   WallPoints out =
-      polyaffine::gauss_cells(left_wall, of_left.cell, of_left.place, cells, counts, kCellDegree);
+      polyaffine::gauss_cells(left_wall, of_left.cell, of_left.place, cells, counts, kStrainCellDegree);
   if (right.empty()) return out;
   const WallPoints right_wall = subset(candidates, right);
   const Cells of_right = region_cells(anatomy, d, right_wall);
-  append(polyaffine::compress_cells(right_wall, of_right.cell, of_right.place, kCellDegree), out);
+  append(polyaffine::compress_cells(right_wall, of_right.cell, of_right.place, kStrainCellDegree), out);
   return out;
 }
 

@@ -1,9 +1,11 @@
 #include "cardiac/heart/result.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <limits>
 
 #include <cardiac/core/units.hpp>
+#include <cardiac/heart/axes_check.hpp>
 #include <cardiac/heart/frame_functions.hpp>
 #include <cardiac/heart/haemodynamics.hpp>
 #include <cardiac/heart/motion.hpp>
@@ -80,12 +82,22 @@ void add_motion(const Ventricle& ventricle, const std::vector<ControlNode>& node
   if (protocol.output.frames) out.frame_functions = frame_functions(ventricle.discretisation);
   for (const HeartState& state : path.outputs) {
     out.instants.push_back(motion.instant(state.time_ms, state.c));
+    out.min_det_F = std::min(out.min_det_F, out.instants.back().min_det_F);
     for (std::size_t k = 0; k < out.frame_functions.size(); ++k)
       out.instants.back().frame_unknowns.emplace_back(state.c.segment<3>(3 * static_cast<Eigen::Index>(k)));
   }
   const Instant es = motion.instant(key.es.time_ms, key.es.c);
   out.strain = es.global.front();
   if (es.global.size() > 1) out.right_strain = es.global[1];
+}
+
+void warn_of_crushing(bool full_order, BeatResult& out) {
+  if (out.min_det_F >= kCrushed) return;
+  out.warnings.push_back("the wall was compressed to " + std::to_string(100 * out.min_det_F) +
+                         " % of its volume somewhere (min_det_F): the numbers are not those of muscle; "
+                         "lower the load, or raise " +
+                         (full_order ? "tissue.bulk_modulus_kPa"
+                                     : "reduction.local_bulk_modulus_kPa (60 where muscle contracts)"));
 }
 
 }  // namespace
@@ -119,14 +131,14 @@ BeatResult describe_path(const Ventricle& ventricle, const std::vector<ControlNo
   out.completed = path.completed;
   out.stop_reason = path.stop_reason;
   out.warnings = path.warnings;
-  if (path.min_det_F < kCrushed)
-    out.warnings.push_back("the wall was compressed to " + std::to_string(100 * path.min_det_F) +
-                           " % of its volume somewhere (min_det_F): the numbers are not those of muscle; "
-                           "lower the load or raise tissue.bulk_modulus_kPa");
+  if (d.frames) axes_of(anatomy, protocol, out.warnings);
   // A trained rule keeps forces and volumes; means over segments are those of all points.
   const Ventricle& told = ventricle.all_points ? *ventricle.all_points : ventricle;
   out.segments = segment_info(told);
-  if (path.steps.empty()) return out;
+  if (path.steps.empty()) {
+    warn_of_crushing(d.sparse, out);
+    return out;
+  }
 
   const KeyStates key = key_states(path, protocol);
   out.ventricles.push_back(summarise(path, key, false, out.has_beat));
@@ -140,6 +152,7 @@ BeatResult describe_path(const Ventricle& ventricle, const std::vector<ControlNo
     out.circulation = circulation_table(path, protocol);
   }
   add_motion(ventricle, nodes, protocol, path, key, out);
+  warn_of_crushing(d.sparse, out);
   return out;
 }
 

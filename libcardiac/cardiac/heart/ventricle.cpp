@@ -5,6 +5,7 @@
 
 #include <cardiac/activation/activation.hpp>
 #include <cardiac/anatomy/right_ventricle.hpp>
+#include <cardiac/heart/rest_check.hpp>
 #include <cardiac/heart/trained_rule.hpp>
 #include <cardiac/heart/vertex_displacement.hpp>
 #include <cardiac/protocol/contraction_time.hpp>
@@ -143,6 +144,7 @@ Discretisation discretise(const std::shared_ptr<const Anatomy>& anatomy, const P
 Ventricle build_ventricle(std::shared_ptr<const Anatomy> anatomy, const Protocol& protocol,
                           protocol::Method method) {
   Ventricle all = assemble_ventricle(anatomy, protocol, discretise(anatomy, protocol, method));
+  if (method == protocol::Method::polyaffine) check_rest(all, protocol);
   if (method == protocol::Method::fem || protocol.reduction.integration != protocol::Integration::trained)
     return all;
   if (all.right_cavity)

@@ -127,10 +127,14 @@ Table reduction_table() {
            {.unit = "kPa",
             .range = {0, 1e6},
             .meaning = "part of the bulk modulus that acts at every integration point beside the pressure "
-                       "space; one to two shear moduli keep local volumes in check"})
-      .key("axes", &Reduction::axes,
-           {.meaning = "components of the unknowns along heart axes (longitudinal, "
-                       "circumferential, radial) or Cartesian axes"})
+                       "space; one to two shear moduli keep local volumes in check. Not given, it is 20 with "
+                       "[contraction] (a tenth of tissue.bulk_modulus_kPa at most), whose tension stiffens "
+                       "the wall; 60 where the wall is crushed (min_det_F)"})
+      .key(
+          "axes", &Reduction::axes,
+          {.meaning = "components of the unknowns along heart axes (longitudinal, "
+                      "circumferential, radial) or Cartesian axes; auto: heart axes, or Cartesian ones where "
+                      "those turn too fast, as in papillary muscles, with a warning"})
       .key("ring_nodes", &Reduction::ring_nodes,
            {.range = {3, 60},
             .meaning =

@@ -33,8 +33,8 @@ constexpr Names<2> names_of(Weights) {
 constexpr Names<5> names_of(PressureSpace) {
   return {"none", "segment", "segment_depth", "segment_linear", "segment_bilinear"};
 }
-constexpr Names<2> names_of(Axes) {
-  return {"heart", "cartesian"};
+constexpr Names<3> names_of(Axes) {
+  return {"heart", "cartesian", "auto"};
 }
 constexpr Names<3> names_of(Integration) {
   return {"cells", "gauss", "trained"};

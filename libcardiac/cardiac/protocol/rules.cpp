@@ -208,6 +208,14 @@ bool regions_differ(const Protocol& protocol) {
   });
 }
 
+// Tension stiffens muscle, several times over the passive wall.
+void raise_local_bulk_modulus(Protocol& protocol) {
+  constexpr double kContracting_kPa = 20, kShare = 0.1;
+  double& local = protocol.reduction.local_bulk_modulus_kPa;
+  if (protocol.contraction)
+    local = std::max(local, std::min(kContracting_kPa, kShare * protocol.tissue.bulk_modulus_kPa));
+}
+
 void fill_presets(Protocol& protocol) {
   Reduction& reduction = protocol.reduction;
   const bool fast = reduction.preset == Preset::fast;

@@ -15,6 +15,9 @@ using Place = std::function<std::string(const std::string& path)>;
 /// differ.
 void fill_presets(Protocol& protocol);
 
+/// The local bulk modulus of a protocol that does not name one: more where muscle contracts.
+void raise_local_bulk_modulus(Protocol& protocol);
+
 /// Adds warnings about values that are allowed and lead beyond what the reduced model can tell.
 void warn_of_limits(Protocol& protocol, const Place& place);
 

@@ -35,7 +35,7 @@ enum class Method { polyaffine, fem };
 enum class Preset { fast, accurate };
 enum class Weights { sigmoid, tents };
 enum class PressureSpace { none, segment, segment_depth, segment_linear, segment_bilinear };
-enum class Axes { heart, cartesian };
+enum class Axes { heart, cartesian, automatic };
 enum class Integration { cells, gauss, trained };
 struct Reduction {
   Method method = Method::polyaffine;
@@ -45,8 +45,8 @@ struct Reduction {
   std::optional<std::vector<std::string>> enrichment;  ///< set by the preset when the file does not name it
   std::optional<PressureSpace> pressure_space;         ///< set by the preset when the file does not name it
   std::optional<bool> border_functions;                ///< set by the preset when the file does not name it
-  double local_bulk_modulus_kPa = 6;  ///< part of the bulk modulus that acts at every integration point
-  Axes axes = Axes::heart;
+  double local_bulk_modulus_kPa = 6;  ///< at every integration point; raised where muscle contracts
+  Axes axes = Axes::automatic;
   std::vector<int> ring_nodes = {4, 6, 6};  ///< control nodes of each ring, apex to base, beside the cap's
   std::optional<std::vector<double>> ring_positions;   ///< apicobasal, 0 apex to 1 base
   std::optional<std::vector<double>> ring_angles_deg;  ///< rotational, of each ring's first node

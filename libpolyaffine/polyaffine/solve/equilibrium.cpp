@@ -3,10 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace polyaffine {
 namespace {
 
+// A force is none where it strains the wall by no more than this, by the tangent stiffness: rounding in a
+// stress of a bulk modulus 1e5 times the shear modulus strains it by some 1e-11, and a relative residual of a
+// load that is none, or next to none, never falls below its own rounding.
+constexpr double kNoStrain = 1e-11;
 constexpr double kProgress = 0.9;  // a step with a former tangent is taken where both residuals fall so far
 
 // Residuals of the mixed form at a state.
@@ -78,6 +83,21 @@ class Equations {
     each_term([&](std::size_t k, const PotentialTerm& term, double s) {
       term.energy->add_tangent(motion(k, at), system, s);
     });
+  }
+
+  // Largest change of a deformation gradient along a step; infinite where no term is a wall.
+  double strain(const Vector& step) const {
+    std::optional<double> out;
+    each_term([&](std::size_t, const PotentialTerm& term, double) {
+      if (!term.wall) return;
+      const FieldTable& table = term.energy->table();
+      for (const PointBlock& block : table.blocks) {
+        Matrix change = Matrix::Zero(9, block.count);
+        add_field(block, gather(block, step), change.data());
+        out = std::max(out.value_or(0), change.cwiseAbs().maxCoeff());
+      }
+    });
+    return out.value_or(std::numeric_limits<double>::infinity());
   }
 
   MixedState step(const Vector& c, const Residual& r, Vector direction) const {
@@ -250,6 +270,10 @@ NewtonReport newton_from(const Equations& equations, Start start, LinearSystem& 
     report.indefinite |= report.unstable;
     const Vector r = equations.condensed(x.c, now);
     const MixedState step = equations.step(x.c, now, -system.solve(r));
+    if (now.dilatation <= options.dilatation_tolerance && equations.strain(step.c) <= kNoStrain) {
+      x = moved(x, 1, step);
+      return stop(StopReason::converged);
+    }
     const bool mixed = equations.mixed();
     const double slope = mixed ? 0 : r.dot(step.c);
     const double noise = 1e-14 * std::abs(now.potential);

@@ -37,7 +37,7 @@ struct MixedState {
 };
 
 struct NewtonOptions {
-  double tolerance = 1e-8;             ///< on ‖residual‖ over the sum of the norms of the terms' forces
+  double tolerance = 1e-8;  ///< on ‖residual‖ over Σ ‖force‖ of the terms, or a step of strain below 1e-11
   double dilatation_tolerance = 1e-8;  ///< on the largest |M⁻¹ R_p|
   int max_iterations = 25;
   int max_halvings = 12;

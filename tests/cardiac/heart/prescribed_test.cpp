@@ -67,6 +67,30 @@ TEST(Prescribed, PressureRisesToTheOneAskedForAndTheCavityWithIt) {
   }
 }
 
+// The wall at rest is in equilibrium with no pressure, and next to it with next to none.
+TEST(Prescribed, NoPressureMovesNothingAndALittleALittle) {
+  const auto opened = [](const std::string& pressure_mmHg) {
+    const HeartRun run(testing::shipped_protocol(
+        "passive_inflation",
+        testing::on_land_ellipsoid({"cavities.pressure_mmHg=" + pressure_mmHg, "tissue.law=guccione",
+                                    "fibres.endo_angle_deg=60", "time.load_steps=2"})));
+    EXPECT_TRUE(run.path.completed) << run.path.stop_reason;
+    return run.path.steps.back().volume_mm3 - run.path.steps.front().volume_mm3;
+  };
+  EXPECT_NEAR(opened("0.0"), 0, 1e-9);
+  const double compliance = opened("1e-3") / 1e-3;  // mm³/mmHg
+  EXPECT_GT(compliance, 10);
+  EXPECT_NEAR(opened("1e-6") / 1e-6, compliance, 1e-2 * compliance);
+  EXPECT_NEAR(opened("1e-9") / 1e-9, compliance, 1e-2 * compliance);
+}
+
+TEST(Prescribed, ABeatBeginsWithoutFillingPressure) {
+  const HeartRun run(testing::shipped_protocol(
+      "healthy_lv",
+      testing::on_land_ellipsoid({"circulation.filling_pressure_mmHg=0.0", "time.max_beats=1"})));
+  EXPECT_TRUE(run.path.completed) << run.path.stop_reason;
+}
+
 TEST(Prescribed, ReducedModelFollowsTheFullOrder) {
   const auto& [reduced, full] = Inflations::get();
   const Points u = displacement(reduced, reduced.path.steps.back().c);

@@ -49,6 +49,16 @@ TEST(Rules, ThePressuresNeedAPartOfTheBulkModulus) {
   EXPECT_NO_THROW(parsed(kPassive, {"tissue.bulk_modulus_kPa=6", "reduction.pressure_space=none"}));
 }
 
+TEST(Rules, ContractionRaisesALocalBulkModulusThatIsNotGiven) {
+  const auto local = [](const std::string& text, const std::vector<std::string>& overrides) {
+    return parsed(text, overrides).reduction.local_bulk_modulus_kPa;
+  };
+  EXPECT_EQ(local(kPassive, {}), 6);
+  EXPECT_EQ(local(kBeat, {}), 20);
+  EXPECT_EQ(local(kBeat, {"tissue.bulk_modulus_kPa=100"}), 10);
+  EXPECT_EQ(local(kBeat, {"reduction.local_bulk_modulus_kPa=6"}), 6);
+}
+
 TEST(Rules, ContrastsBeyondTheReducedModelAreWarnedOf) {
   const auto warnings = [](const std::string& factor, const std::string& method) {
     return parsed(kPassive + "[[region]]\nsegments = [7]\nstiffness_factor = " + factor + "\n",

@@ -206,6 +206,33 @@ TEST(Equilibrium, AFailedNewtonLeavesItsStartAlone) {
   EXPECT_TRUE(c == start);
 }
 
+// A residual that is nothing but rounding has no relative size.
+TEST(Equilibrium, NoLoadMovesNothing) {
+  Bar bar(2);
+  bar.clamp(testing::kXLow);
+  bar.pull(testing::kXHigh, Vec3::Zero());
+  Vector c = Vector::Zero(bar.unknowns());
+  const LoadReport report = load_stepping(bar.problem, *bar.system(), c);
+  EXPECT_TRUE(report.converged());
+  EXPECT_EQ(report.cuts, 0);
+  EXPECT_LT(c.cwiseAbs().maxCoeff(), 1e-15 * kLength);
+}
+
+TEST(Equilibrium, TheSmallestLoadsMoveInProportion) {
+  const auto pulled = [](double traction) {
+    Bar bar(2);
+    bar.clamp(testing::kXLow);
+    bar.pull(testing::kXHigh, Vec3(0, traction, 0));
+    Vector c = Vector::Zero(bar.unknowns());
+    EXPECT_TRUE(load_stepping(bar.problem, *bar.system(), c).converged());
+    return Vector(c / traction);
+  };
+  const Vector compliance = pulled(1e-6);
+  EXPECT_GT(compliance.norm(), 0.1);
+  for (const double traction : {1e-9, 1e-11, 1e-13})
+    EXPECT_LT((pulled(traction) - compliance).norm(), 1e-2 * compliance.norm()) << traction;
+}
+
 TEST(Equilibrium, AFreeBodyHasASingularTangent) {
   Bar bar(1);
   bar.pull(testing::kXHigh, Vec3(0, 0, 1));
