@@ -66,8 +66,7 @@ std::string write_wall_figure(const Ventricle& ventricle, const Protocol& protoc
 
 // Tables, figures and meshes; the drawing of the wall for the page.
 std::string write_results(const Ventricle& ventricle, const Protocol& protocol, const HeartPath& path,
-                          BeatResult& result, const RunInfo& info, const std::filesystem::path& out) {
-  const auto output_start = std::chrono::steady_clock::now();
+                          const BeatResult& result, const RunInfo& info, const std::filesystem::path& out) {
   if (protocol.output.mesh_series && !path.outputs.empty())
     write_mesh_series(ventricle, protocol, path, result, out);
   std::string wall;
@@ -76,7 +75,6 @@ std::string write_results(const Ventricle& ventricle, const Protocol& protocol, 
     wall = write_wall_figure(ventricle, protocol, path, result, out);
   }
   if (protocol.output.tables) write_tables(result, info, out);
-  result.wall_output_s = seconds_since(output_start);
   return wall;
 }
 
@@ -222,6 +220,7 @@ void run(RunOptions options) {
     path.warnings.push_back(reason + ": computed with all points");
   }
   const double solve_s = seconds_since(solve_start);
+  const auto output_start = std::chrono::steady_clock::now();
   BeatResult result = describe_path(ventricle, nodes, protocol, path);
   result.wall_setup_s = setup;
   result.wall_solve_s = solve_s;
@@ -230,6 +229,7 @@ void run(RunOptions options) {
   result.warnings.insert(result.warnings.begin(), protocol.warnings.begin(), protocol.warnings.end());
   const RunInfo info{CARDIAC_VERSION, resolved_json(protocol).dump(), 0};
   const std::string wall = write_results(ventricle, protocol, path, result, info, out);
+  result.wall_output_s = seconds_since(output_start);
   write_summary(protocol, result, info, out, wall, start);
   double verification_s = 0;
   if (options.verify && path.completed && protocol.reduction.method == protocol::Method::polyaffine) {

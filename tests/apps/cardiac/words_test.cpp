@@ -12,6 +12,7 @@
 #include "program.hpp"
 
 using testing::AllOf;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
@@ -31,6 +32,8 @@ std::string in(const TemporaryFolder& folder) {
   return "cd \"" + folder.path.string() + "\" && ";
 }
 
+const std::regex kOption("(^  |,)(--?[A-Za-z-]+)");
+
 /// The commands and options that --help lists, found from its text alone: "mesh import" and "--out".
 struct Listed {
   std::set<std::string> options, subcommands;
@@ -47,8 +50,7 @@ Listed listed(const std::string& command) {
     if (subcommands && std::regex_search(line, found, std::regex("^  ([a-z]+)( |$)")))
       out.subcommands.insert(found[1]);
     if (line.starts_with("  -"))
-      for (std::sregex_iterator it(line.begin(), line.end(), std::regex("(^  |,)(--?[A-Za-z-]+)")), end;
-           it != end; ++it)
+      for (std::sregex_iterator it(line.begin(), line.end(), kOption), end; it != end; ++it)
         out.options.insert((*it)[2]);
   }
   return out;
@@ -175,7 +177,7 @@ TEST(Words, ManualPageHoldsTheHelp) {
     const std::string section = text.substr(begin, text.find("\n.S", begin + 1) - begin);
     for (const std::string& option : listed.options) {
       if (!command.empty() && (option == "-h" || option == "--help")) continue;  // said once
-      EXPECT_THAT(section, testing::ContainsRegex("[B,]" + option + "[\\\\,]")) << command;
+      EXPECT_THAT(section, ContainsRegex("[B,]" + option + "[\\\\,]")) << command;
     }
   }
   if (std::system("command -v groff >/dev/null") != 0) return;
