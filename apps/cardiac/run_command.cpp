@@ -87,6 +87,21 @@ void write_summary(const Protocol& protocol, BeatResult& result, const RunInfo& 
   if (protocol.output.figures) write_report_page(result, info, out, wall);
 }
 
+// Full order at end diastole and end systole; told on the terminal, and ended by a signal. Returns its
+// seconds.
+double verify(const Ventricle& ventricle, const Protocol& protocol, const HeartPath& path, BeatResult& result,
+              const InterruptGuard& interrupt, bool quiet) {
+  const auto start = std::chrono::steady_clock::now();
+  ProgressLine line(quiet, "about");
+  result.verification = verify_path(ventricle, protocol, path, [&](const std::string& what, double fraction) {
+    if (!interrupt.reason().empty())
+      throw polyaffine::ComputationError("verification: " + interrupt.reason() +
+                                         "; the results of the run itself are whole");
+    line(what, fraction);
+  });
+  return seconds_since(start);
+}
+
 // Three digits.
 std::string seconds_text(double seconds) {
   std::ostringstream text;
@@ -233,9 +248,7 @@ void run(RunOptions options) {
   write_summary(protocol, result, info, out, wall, start);
   double verification_s = 0;
   if (options.verify && path.completed && protocol.reduction.method == protocol::Method::polyaffine) {
-    const auto verification_start = std::chrono::steady_clock::now();
-    result.verification = verify_path(ventricle, protocol, path);
-    verification_s = seconds_since(verification_start);
+    verification_s = verify(ventricle, protocol, path, result, interrupt, options.quiet);
     write_summary(protocol, result, info, out, wall, start);
   }
   if (!options.quiet) print_result(result, verification_s, out);
