@@ -230,6 +230,12 @@ TEST(Words, TheLastLineTellsTheWholeTime) {
   EXPECT_GE(whole, parts - 0.02);
   EXPECT_LE(whole, parts + 0.02 + 0.2 * parts);
   EXPECT_GT(std::stod(found[3]), 0);
+  // What a run writes is documented.
+  const std::string documented = whole_file(PROJECT_DIR "/docs/files.md");
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path / "out"))
+    if (const std::string file = entry.path().filename().string();
+        file.ends_with(".csv") || file.ends_with(".json"))
+      EXPECT_THAT(documented, HasSubstr('`' + file + '`'));
 }
 
 TEST(Words, VerificationIsToldOnATerminal) {
