@@ -67,8 +67,7 @@ std::string write_wall_figure(const Ventricle& ventricle, const Protocol& protoc
 
 // Tables, figures and meshes; the drawing of the wall for the page.
 std::string write_results(const Ventricle& ventricle, const Protocol& protocol, const HeartPath& path,
-                          BeatResult& result, const RunInfo& info, const std::filesystem::path& out) {
-  const auto output_start = std::chrono::steady_clock::now();
+                          const BeatResult& result, const RunInfo& info, const std::filesystem::path& out) {
   if (protocol.output.mesh_series && !path.outputs.empty())
     write_mesh_series(ventricle, protocol, path, result, out);
   std::string wall;
@@ -77,7 +76,6 @@ std::string write_results(const Ventricle& ventricle, const Protocol& protocol, 
     wall = write_wall_figure(ventricle, protocol, path, result, out);
   }
   if (protocol.output.tables) write_tables(result, info, out);
-  result.wall_output_s = seconds_since(output_start);
   return wall;
 }
 
@@ -88,6 +86,21 @@ void write_summary(const Protocol& protocol, BeatResult& result, const RunInfo& 
   result.wall_total_s = seconds_since(start);
   polyaffine::write_atomically(out / "summary.json", summary_text(result, info));
   if (protocol.output.figures) write_report_page(result, info, out, wall);
+}
+
+// Full order at end diastole and end systole; told on the terminal, and ended by a signal. Returns its
+// seconds.
+double verify(const Ventricle& ventricle, const Protocol& protocol, const HeartPath& path, BeatResult& result,
+              const InterruptGuard& interrupt, bool quiet) {
+  const auto start = std::chrono::steady_clock::now();
+  ProgressLine line(quiet, "about");
+  result.verification = verify_path(ventricle, protocol, path, [&](const std::string& what, double fraction) {
+    if (!interrupt.reason().empty())
+      throw polyaffine::ComputationError("verification: " + interrupt.reason() +
+                                         "; the results of the run itself are whole");
+    line(what, fraction);
+  });
+  return seconds_since(start);
 }
 
 // Three digits.
@@ -224,6 +237,7 @@ void run(RunOptions options) {
     path.warnings.push_back(reason + ": computed with all points");
   }
   const double solve_s = seconds_since(solve_start);
+  const auto output_start = std::chrono::steady_clock::now();
   BeatResult result = describe_path(ventricle, nodes, protocol, path);
   result.wall_setup_s = setup;
   result.wall_solve_s = solve_s;
@@ -232,12 +246,11 @@ void run(RunOptions options) {
   result.warnings.insert(result.warnings.begin(), protocol.warnings.begin(), protocol.warnings.end());
   const RunInfo info{CARDIAC_VERSION, resolved_json(protocol).dump(), 0};
   const std::string wall = write_results(ventricle, protocol, path, result, info, out);
+  result.wall_output_s = seconds_since(output_start);
   write_summary(protocol, result, info, out, wall, start);
   double verification_s = 0;
   if (options.verify && path.completed && protocol.reduction.method == protocol::Method::polyaffine) {
-    const auto verification_start = std::chrono::steady_clock::now();
-    result.verification = verify_path(ventricle, protocol, path);
-    verification_s = seconds_since(verification_start);
+    verification_s = verify(ventricle, protocol, path, result, interrupt, options.quiet);
     write_summary(protocol, result, info, out, wall, start);
   }
   if (!options.quiet) print_result(result, verification_s, out);

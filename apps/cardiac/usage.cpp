@@ -1,6 +1,7 @@
 #include "usage.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <sstream>
 
 #include <cardiac/protocol/nearest_key.hpp>
@@ -55,6 +56,16 @@ const CLI::App& deepest(const CLI::App& app) {
   return *at;
 }
 
+// To the parser a group of options is a subcommand without a name.
+std::vector<const CLI::Option*> of_command_and_groups(const CLI::App& command,
+                                                      const std::function<bool(const CLI::Option*)>& which) {
+  std::vector<const CLI::Option*> out = command.get_options(which);
+  for (const CLI::App* group :
+       command.get_subcommands([](const CLI::App* one) { return one->get_name().empty(); }))
+    for (const CLI::Option* option : of_command_and_groups(*group, which)) out.push_back(option);
+  return out;
+}
+
 }  // namespace
 
 std::string full_name(const CLI::App& command) {
@@ -68,15 +79,15 @@ std::string help_of(const CLI::App& command) {
 }
 
 std::vector<const CLI::App*> subcommands_of(const CLI::App& command) {
-  return command.get_subcommands([](const CLI::App*) { return true; });
+  return command.get_subcommands([](const CLI::App* one) { return !one->get_name().empty(); });
 }
 
 std::vector<const CLI::Option*> options_of(const CLI::App& command) {
-  return command.get_options([](const CLI::Option* option) { return option->nonpositional(); });
+  return of_command_and_groups(command, [](const CLI::Option* option) { return option->nonpositional(); });
 }
 
 std::vector<const CLI::Option*> positionals_of(const CLI::App& command) {
-  return command.get_options([](const CLI::Option* option) { return option->get_positional(); });
+  return of_command_and_groups(command, [](const CLI::Option* option) { return option->get_positional(); });
 }
 
 std::vector<std::string> choices_of(const CLI::Option& option) {

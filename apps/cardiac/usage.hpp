@@ -15,7 +15,7 @@ std::string help_of(const CLI::App& command);
 /// Its subcommands, in the order in which they were added.
 std::vector<const CLI::App*> subcommands_of(const CLI::App& command);
 
-/// Its options but the positional ones, in the order in which they were added.
+/// Its options but the positional ones, in the order in which they were added, those of its groups behind.
 std::vector<const CLI::Option*> options_of(const CLI::App& command);
 std::vector<const CLI::Option*> positionals_of(const CLI::App& command);
 

@@ -1,7 +1,11 @@
 #include "cardiac/heart/verification.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
+#include <iomanip>
+#include <sstream>
 
 #include <cardiac/strain/segment_strain.hpp>
 #include <polyaffine/core/error.hpp>
@@ -34,8 +38,21 @@ struct Comparison {
   double displacement_error = 0, volume_error = 0, wall_time = 0;
 };
 
-Comparison compare(const Ventricle& reduced, const Ventricle& full, const HeartState& state,
-                   double clock_ms) {
+// Told with the share of one instant's solution that is done.
+using InstantProgress = std::function<void(const std::string& what, double fraction)>;
+
+std::function<void(int, double)> newton_progress(const InstantProgress& progress, double tolerance) {
+  return [&progress, tolerance, first = 0.0](int iteration, double residual) mutable {
+    if (iteration == 0) first = residual;
+    const double decades = first > tolerance ? std::log(first / residual) / std::log(first / tolerance) : 0;
+    std::ostringstream what;
+    what << "Newton step " << iteration + 1 << ", residual " << std::setprecision(1) << residual;
+    progress(what.str(), std::clamp(decades, 0.0, 1.0));
+  };
+}
+
+Comparison compare(const Ventricle& reduced, const Ventricle& full, const HeartState& state, double clock_ms,
+                   const InstantProgress& progress) {
   const auto start = std::chrono::steady_clock::now();
   const auto& elements = dynamic_cast<const polyaffine::LagrangeBasis&>(*full.discretisation.basis);
   const auto& points = full.discretisation.points;
@@ -46,10 +63,15 @@ Comparison compare(const Ventricle& reduced, const Ventricle& full, const HeartS
   polyaffine::NewtonOptions options;
   options.tolerance = 1e-7;
   options.max_iterations = 60;
+  options.on_iteration = newton_progress(progress, options.tolerance);
   auto report = polyaffine::newton(problem, 1, *system, c, options);
   if (!report.converged()) {
     c.setZero();
-    const auto ramp = polyaffine::load_stepping(problem, *system, c);
+    double reached = 0;
+    polyaffine::LoadOptions steps;
+    steps.on_step = [&](double load, const Vector&) { reached = load; };
+    steps.newton.on_iteration = [&](int, double) { progress("load raised from zero", reached); };
+    const auto ramp = polyaffine::load_stepping(problem, *system, c, steps);
     if (!ramp.converged())
       throw polyaffine::ComputationError("verification: the full-order problem stopped at " +
                                          std::to_string(100 * ramp.reached) +
@@ -79,7 +101,11 @@ Comparison compare(const Ventricle& reduced, const Ventricle& full, const HeartS
 }  // namespace
 
 std::vector<VerificationInstant> verify_path(const Ventricle& reduced, const Protocol& protocol,
-                                             const HeartPath& path) {
+                                             const HeartPath& path, const Progress& progress) {
+  const auto tell = [&](const std::string& what, double fraction) {
+    if (progress) progress(what, fraction);
+  };
+  tell("full order: elements", 0);
   const KeyStates key = key_states(path, protocol);
   const Ventricle full = build_ventricle(reduced.anatomy, protocol, protocol::Method::fem);
   const SegmentGauge gauge(*reduced.anatomy->coordinates, full.discretisation.points);
@@ -87,7 +113,12 @@ std::vector<VerificationInstant> verify_path(const Ventricle& reduced, const Pro
   Matrix F_reduced_ed, F_full_ed;
   for (const auto& [name, instant_state] : {std::pair{"ED", &key.ed}, std::pair{"ES", &key.es}}) {
     const HeartState& state = *instant_state;
-    const Comparison at = compare(reduced, full, state, path.beat_start_ms + state.time_ms);
+    const auto done = static_cast<double>(out.size());
+    const InstantProgress at_instant = [&, instant = std::string(name)](const std::string& what,
+                                                                        double share) {
+      tell("full order at " + instant + ": " + what, (done + share) / 2);
+    };
+    const Comparison at = compare(reduced, full, state, path.beat_start_ms + state.time_ms, at_instant);
     if (out.empty()) {
       F_reduced_ed = at.F_reduced;
       F_full_ed = at.F_full;

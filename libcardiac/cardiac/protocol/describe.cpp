@@ -222,7 +222,9 @@ std::string explain(const std::string& words) {
   } else if (const Table* table = find_table(first)) {
     if (const Key* key = find_key(*table, words.substr(dot + 1))) return explain_key(*table, *key);
   }
-  if (const std::string found = explain_matches(words); !found.empty()) return found;
+  // Behind a known table stands the name of a key, not words.
+  const bool key_path = dot != std::string::npos && find_table(first) != nullptr;
+  if (const std::string found = key_path ? "" : explain_matches(words); !found.empty()) return found;
   const std::string nearest =
       dot == std::string::npos ? nearest_key("", words) : nearest_key(first, words.substr(dot + 1));
   throw polyaffine::InputError(words + ": unknown key; the nearest known key is " + nearest);

@@ -248,6 +248,7 @@ NewtonReport newton_from(const Equations& equations, Start start, LinearSystem& 
     report.residuals.push_back(now.relative);
     if (converged(now, options)) return stop(StopReason::converged);
     if (report.iterations == options.max_iterations) return stop(StopReason::max_iterations);
+    if (options.on_iteration) options.on_iteration(report.iterations, now.relative);
 
     if (tangent.size() > 0 && options.contraction > 0) {
       const Vector direction = -system.solve(equations.condensed(tangent, now));

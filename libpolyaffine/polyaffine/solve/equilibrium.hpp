@@ -45,6 +45,7 @@ struct NewtonOptions {
   /// residuals to this share or they would pass after four more such steps (simplified Newton, Deuflhard
   /// 2011, §2.1.2); 0: every step has its own.
   double contraction = 0;
+  std::function<void(int iteration, double residual)> on_iteration{};  ///< called before each step; may throw
 };
 
 enum class StopReason {

@@ -12,6 +12,7 @@
 #include "program.hpp"
 
 using testing::AllOf;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
@@ -31,6 +32,8 @@ std::string in(const TemporaryFolder& folder) {
   return "cd \"" + folder.path.string() + "\" && ";
 }
 
+const std::regex kOption("(^ +|,)(--?[A-Za-z-]+)");
+
 /// The commands and options that --help lists, found from its text alone: "mesh import" and "--out".
 struct Listed {
   std::set<std::string> options, subcommands;
@@ -46,9 +49,8 @@ Listed listed(const std::string& command) {
     std::smatch found;
     if (subcommands && std::regex_search(line, found, std::regex("^  ([a-z]+)( |$)")))
       out.subcommands.insert(found[1]);
-    if (line.starts_with("  -"))
-      for (std::sregex_iterator it(line.begin(), line.end(), std::regex("(^  |,)(--?[A-Za-z-]+)")), end;
-           it != end; ++it)
+    if (std::regex_search(line, std::regex("^ +-")))
+      for (std::sregex_iterator it(line.begin(), line.end(), kOption), end; it != end; ++it)
         out.options.insert((*it)[2]);
   }
   return out;
@@ -175,7 +177,7 @@ TEST(Words, ManualPageHoldsTheHelp) {
     const std::string section = text.substr(begin, text.find("\n.S", begin + 1) - begin);
     for (const std::string& option : listed.options) {
       if (!command.empty() && (option == "-h" || option == "--help")) continue;  // said once
-      EXPECT_THAT(section, testing::ContainsRegex("[B,]" + option + "[\\\\,]")) << command;
+      EXPECT_THAT(section, ContainsRegex("[B,]" + option + "[\\\\,]")) << command;
     }
   }
   if (std::system("command -v groff >/dev/null") != 0) return;
@@ -228,6 +230,34 @@ TEST(Words, TheLastLineTellsTheWholeTime) {
   EXPECT_GE(whole, parts - 0.02);
   EXPECT_LE(whole, parts + 0.02 + 0.2 * parts);
   EXPECT_GT(std::stod(found[3]), 0);
+  // What a run writes is documented.
+  const std::string documented = whole_file(PROJECT_DIR "/docs/files.md");
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path / "out"))
+    if (const std::string file = entry.path().filename().string();
+        file.ends_with(".csv") || file.ends_with(".json"))
+      EXPECT_THAT(documented, HasSubstr('`' + file + '`'));
+}
+
+TEST(Words, VerificationIsToldOnATerminal) {
+  if (std::system("command -v script >/dev/null") != 0)
+    GTEST_SKIP() << "no script(1), which makes a terminal";
+  const TemporaryFolder folder;
+  const std::string protocol = passive_protocol(
+      folder, "file = \"" PROJECT_DIR "/meshes/land_ellipsoid_coarse.vtu\"\nlength_unit = \"mm\"");
+  const auto shown = folder.path / "shown";
+  const std::string run = "'" CARDIAC_PROGRAM "' run " + protocol +
+                          " --verify --out out --set output.figures=false --set output.mesh_series=false";
+  EXPECT_EQ(
+      std::system(
+          (in(folder) + "script -qec \"" + run + "\" /dev/null >" + shown.string() + " </dev/null").c_str()),
+      0);
+  std::smatch took;
+  const std::string text = whole_file(shown);
+  ASSERT_TRUE(std::regex_search(text, took, std::regex(", verification ([0-9.]+) s"))) << text;
+  // The line comes after two seconds, and then with the next step.
+  if (std::stod(took[1]) < 4) GTEST_SKIP() << "this machine is too quick for a line of progress";
+  EXPECT_THAT(text, ContainsRegex("full order at E[DS]: Newton step [0-9]+, residual [0-9.e-]+ +"
+                                  "[0-9]+ %  [0-9]+ s, about [0-9]+ s left"));
 }
 
 TEST(Words, AnInstalledProgramBringsItsWordsAndExamples) {

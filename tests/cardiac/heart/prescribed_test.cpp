@@ -113,8 +113,26 @@ TEST(Prescribed, ReducedModelFollowsTheFullOrder) {
 
 TEST(Prescribed, VerificationIsTheDirectComparison) {
   const auto& [reduced, full] = Inflations::get();
-  const auto instants = verify_path(reduced.ventricle, reduced.protocol, reduced.path);
+  std::vector<std::pair<std::string, double>> told;
+  const auto instants =
+      verify_path(reduced.ventricle, reduced.protocol, reduced.path,
+                  [&](const std::string& what, double fraction) { told.emplace_back(what, fraction); });
   ASSERT_EQ(instants.size(), 2);
+  // Told at every step of Newton's method (several an instant that is loaded), the share never falling back
+  // by more than a residual that rises on the way.
+  const auto steps = [&](const std::string& of) {
+    return std::ranges::count_if(told,
+                                 [&](const auto& t) { return t.first.starts_with("full order at " + of); });
+  };
+  EXPECT_GE(steps("ES"), 3);
+  for (const auto& [what, fraction] : told) {
+    EXPECT_GE(fraction, what.find(" at ES") == std::string::npos ? 0 : 0.5) << what;
+    EXPECT_LE(fraction, 1) << what;
+  }
+  EXPECT_GT(told.back().second, 0.6);
+  EXPECT_THROW(verify_path(reduced.ventricle, reduced.protocol, reduced.path,
+                           [](const std::string&, double) { throw std::runtime_error("stop"); }),
+               std::runtime_error);
   EXPECT_EQ(instants[0].instant, "ED");
   EXPECT_EQ(instants[1].instant, "ES");
   for (const VerificationInstant& i : instants) {
