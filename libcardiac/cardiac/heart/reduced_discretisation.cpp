@@ -63,7 +63,7 @@ void add_tent_basis(const Anatomy& anatomy, const Protocol& protocol, Discretisa
   out.frames = frames(true);
   out.pressure_frames = frames(false);
   const auto* both = dynamic_cast<const BiventricularFrames*>(out.frames.get());
-  const bool heart_axes = protocol.reduction.axes == protocol::Axes::heart;
+  const bool heart_axes = protocol.reduction.axes.value_or(protocol::Axes::heart) == protocol::Axes::heart;
   std::vector<FrameFunctions> functions;
   const auto own = independent(*out.frames, monomials(protocol));
   for (int i = 0; i < out.frames->num_frames(); ++i) {

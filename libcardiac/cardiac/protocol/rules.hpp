@@ -10,8 +10,12 @@ namespace cardiac::protocol {
 /// Where a key was given ("file:12"), or where it could be ("file") when it was not; for messages.
 using Place = std::function<std::string(const std::string& path)>;
 
-/// The presets, written out: enrichment and pressure space that the file does not name. The accurate one has
-/// more functions along the wall where regions differ.
+/// The scheme that the file does not name: that of the shape; aha17 for a mesh file, said in
+/// Protocol::scheme_assumed.
+void fill_scheme(Protocol& protocol);
+
+/// The presets, written out: enrichment, pressure space and axes that the file does not name. The accurate
+/// one has more functions along the wall where regions differ.
 void fill_presets(Protocol& protocol);
 
 /// Adds warnings about values that are allowed and lead beyond what the reduced model can tell.
@@ -20,6 +24,7 @@ void warn_of_limits(Protocol& protocol, const Place& place);
 /// Does some [[region]] move otherwise than the rest: another stiffness or, where something contracts,
 /// another tension or time?
 bool regions_differ(const Protocol& protocol);
+bool region_differs(const Protocol& protocol, const RegionOverride& region);
 
 /// What a single key cannot tell: keys that need, exclude or contradict one another. Throws
 /// polyaffine::InputError at the first violation.
