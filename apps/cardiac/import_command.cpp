@@ -31,7 +31,7 @@ struct ImportOptions {
   LabelOptions labels;
   FibreArrays fibres;
   std::optional<double> size_mm;
-  bool all_fields = false;
+  bool all_fields = false, force = false;
 };
 
 void print_report(const TetMesh& mesh) {
@@ -56,6 +56,7 @@ HeartMesh read(const ImportOptions& o) {
                     surface_labels(o.labels.base), surface_labels(o.labels.rv_endo)};
   options.fibre_arrays = o.fibres;
   options.all_fields = o.all_fields;
+  options.size = {"--length-unit", o.force};
   if (is_surface_file(o.file)) {
     if (!o.labels.surface_file.empty())
       throw InputError("--surface-file: given beside the closed surface " + o.file.string() +
@@ -110,6 +111,7 @@ void add_import_command(CLI::App& mesh) {
   command->add_option("--size", o->size_mm,
                       "edge length inside a closed surface, mm (default: half the wall)");
   command->add_flag("--keep-fields", o->all_fields, "keep every numeric array, not only fibres");
+  command->add_flag("--force", o->force, "take a wall of any size");
   command->callback([o] { import(*o); });
 }
 

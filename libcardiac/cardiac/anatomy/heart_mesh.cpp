@@ -21,7 +21,6 @@ using polyaffine::TetMesh;
 using polyaffine::Triangles;
 using Strings = std::vector<std::string>;
 
-constexpr double kLeastWall_mL = 1, kMostWall_mL = 1500;
 constexpr double kLeastRoundness = 0.002;  // V/A^1.5 of a cavity; a sphere has 0.09, a lid next to nothing
 
 const char* name_of(int label) {
@@ -123,20 +122,6 @@ void check_rims(const TetMesh& mesh, int label) {
       }
 }
 
-void warn_of_size(const TetMesh& mesh, double mm_per_unit, Strings& warnings) {
-  const double mL = mesh.volume() / mm3_per_mL;
-  if (mL >= kLeastWall_mL && mL <= kMostWall_mL) return;
-  std::string better;
-  for (const auto& [unit, mm] : {std::pair{"um", 1e-3}, {"mm", 1.0}, {"cm", 10.0}, {"m", 1000.0}})
-    if (const double other = mL * std::pow(mm / mm_per_unit, 3);
-        other >= kLeastWall_mL && other <= kMostWall_mL)
-      better += (better.empty() ? "" : " or ") + number(other) + " mL in " + unit;
-  warnings.push_back(
-      "the wall has " + number(mL) +
-      " mL, outside 1 to 1500 mL, what hearts from a rat's to a horse's have: is the length unit right?" +
-      (better.empty() ? " No unit would do." : " It would be " + better + '.'));
-}
-
 void warn_of_swapped_ventricles(const TetMesh& mesh, Strings& warnings) {
   if (mesh.surface({kRvEndocardium}).cols() == 0) return;
   const auto roundness = [&](int label) {
@@ -180,10 +165,12 @@ HeartMesh make_heart_mesh(polyaffine::MeshData volume, const polyaffine::MeshDat
     split_cavities(out.file.mesh, boundary, out.file.notes);
     out.file.mesh = out.file.mesh.with_labels(std::move(boundary));
     check_heart_surfaces(out.file.mesh);
+    const std::string size = check_wall_size(
+        out.file.mesh.volume(), options.told_mm_per_unit.value_or(options.mm_per_unit), options.size);
+    if (!size.empty()) out.warnings.push_back(size);
   } catch (const InputError& error) {
     throw InputError(triangles.source.string() + ": " + error.what());
   }
-  warn_of_size(out.file.mesh, options.mm_per_unit, out.warnings);
   warn_of_swapped_ventricles(out.file.mesh, out.warnings);
   return out;
 }

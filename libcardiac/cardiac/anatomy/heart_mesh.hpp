@@ -1,7 +1,10 @@
 #pragma once
 
+#include <optional>
+
 #include <cardiac/anatomy/fibre_fields.hpp>
 #include <cardiac/anatomy/surface_names.hpp>
+#include <cardiac/anatomy/wall_size.hpp>
 #include <polyaffine/mesh_io/assemble.hpp>
 
 namespace cardiac {
@@ -13,6 +16,8 @@ struct HeartMeshOptions {
   SurfaceLabelMap labels{};
   FibreArrays fibre_arrays{};
   bool all_fields = false;  ///< keep every numeric array, not only fibres
+  WallSizeRule size{};
+  std::optional<double> told_mm_per_unit{};  ///< of the user's file, where the data are in mm already
 };
 
 /// A mesh whose boundary carries the labels kEndocardium, kEpicardium, kBase and, of two ventricles,
@@ -25,9 +30,9 @@ struct HeartMesh {
 
 /// Makes a heart of the data of a mesh file and, if there is one, of a second file with the labelled
 /// triangles (null: those of the mesh file). Without any label, or with numbers of which none is known, the
-/// surfaces are recognised from the shape; numbers then mean what most of their area is. A wall of less than
-/// 1 or more than 1500 mL is a warning. Throws InputError, naming file and place, as polyaffine::assemble,
-/// heart_labels, recognise_surfaces and check_heart_surfaces, and when a fibre has no length.
+/// surfaces are recognised from the shape; numbers then mean what most of their area is. Throws
+/// InputError, naming file and place, as polyaffine::assemble, heart_labels, recognise_surfaces,
+/// check_heart_surfaces and check_wall_size, and when a fibre has no length.
 HeartMesh make_heart_mesh(polyaffine::MeshData volume, const polyaffine::MeshData* surface,
                           const HeartMeshOptions& options);
 
