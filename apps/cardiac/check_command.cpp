@@ -27,9 +27,7 @@ void print_line(const char* what, const Value& value, const std::string& remark 
 }
 
 void check(const CheckOptions& options) {
-  Protocol protocol = load_protocol(given_or_example(options.protocol), options.overrides);
-  check_mesh_file(protocol);
-  const auto anatomy = std::make_shared<const Anatomy>(load_anatomy(protocol, protocol.warnings));
+  const auto [protocol, anatomy] = load_input(given_or_example(options.protocol), options.overrides);
   print_warnings(protocol.warnings);
   const VolumeCheck found = check_volume(anatomy, protocol);
   std::cout << std::setprecision(3);

@@ -31,7 +31,7 @@ struct ImportOptions {
   LabelOptions labels;
   FibreArrays fibres;
   std::optional<double> size_mm;
-  bool all_fields = false;
+  bool all_fields = false, force = false;
 };
 
 void print_report(const TetMesh& mesh) {
@@ -57,6 +57,7 @@ HeartMesh read(const ImportOptions& o) {
   options.regions = {surface_labels(o.labels.region), o.labels.region_array};
   options.fibre_arrays = o.fibres;
   options.all_fields = o.all_fields;
+  options.size = {"--length-unit", o.force};
   polyaffine::MeshData data = read_any_mesh(o.file);
   if (is_surface(data)) {
     const auto refuse = [&](const char* option, bool given) {
@@ -117,6 +118,7 @@ void add_import_command(CLI::App& mesh) {
   command->add_option("--size", o->size_mm,
                       "edge length inside a closed surface, mm (default: half the wall)");
   command->add_flag("--keep-fields", o->all_fields, "keep every numeric array, not only fibres");
+  command->add_flag("--force", o->force, "take a wall of any size");
   command->callback([o] { import(*o); });
 }
 

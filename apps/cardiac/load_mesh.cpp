@@ -4,6 +4,7 @@
 #include <memory>
 
 #include <cardiac/fibres/file_fibres.hpp>
+#include <cardiac/protocol/names.hpp>
 #include <polyaffine/core/error.hpp>
 
 #include "biventricle_mesh.hpp"
@@ -16,10 +17,11 @@ namespace {
 // Share of tets in which fibres may be far apart without a word: about the apex all directions meet.
 constexpr double kAmbiguous = 0.05;
 
-HeartMeshOptions options_of(const Protocol& protocol) {
+HeartMeshOptions options_of(const Protocol& protocol, const WallSizeRule& size) {
   const protocol::Mesh& mesh = protocol.mesh;
   HeartMeshOptions options;
   options.mm_per_unit = mm_per_unit(*mesh.length_unit);
+  options.size = size;
   options.label_array = mesh.label_array.value_or("");
   options.labels = {mesh.endo_label.value_or(protocol::Labels{}), mesh.epi_label.value_or(protocol::Labels{}),
                     mesh.base_label.value_or(protocol::Labels{}),
@@ -32,10 +34,10 @@ HeartMeshOptions options_of(const Protocol& protocol) {
   return options;
 }
 
-HeartMesh read(const Protocol& protocol, std::vector<std::string>& warnings) {
+HeartMesh read(const Protocol& protocol, std::vector<std::string>& warnings, const WallSizeRule& size) {
   SurfaceFiles surfaces;
   if (protocol.mesh.surface_file) surfaces.labelled = surface_path(protocol);
-  HeartMesh heart = read_heart(read_any_mesh(mesh_path(protocol)), surfaces, options_of(protocol));
+  HeartMesh heart = read_heart(read_any_mesh(mesh_path(protocol)), surfaces, options_of(protocol, size));
   for (const auto& list : {heart.warnings, heart.file.notes})
     for (const std::string& text : list) warnings.push_back(mesh_path(protocol).string() + ": " + text);
   return heart;
@@ -53,8 +55,8 @@ polyaffine::TetMesh generate(const Protocol& protocol) {
 
 }  // namespace
 
-HeartMesh load_heart(const Protocol& protocol, std::vector<std::string>& warnings) {
-  if (!protocol.mesh.shape) return read(protocol, warnings);
+HeartMesh load_heart(const Protocol& protocol, std::vector<std::string>& warnings, const WallSizeRule& size) {
+  if (!protocol.mesh.shape) return read(protocol, warnings, size);
   HeartMesh heart;
   heart.file.mesh = generate(protocol);
   return heart;
@@ -69,8 +71,9 @@ Anatomy anatomy_of(const HeartMesh& heart, const Protocol& protocol) {
   }
 }
 
-Anatomy load_anatomy(const Protocol& protocol, std::vector<std::string>& warnings) {
-  const HeartMesh heart = load_heart(protocol, warnings);
+namespace {
+
+Anatomy with_fibres(const HeartMesh& heart, const Protocol& protocol, std::vector<std::string>& warnings) {
   Anatomy anatomy = anatomy_of(heart, protocol);
   if (!protocol.fibres) return anatomy;
   if (protocol.fibres->source == protocol::FibreSource::file) {
@@ -86,6 +89,30 @@ Anatomy load_anatomy(const Protocol& protocol, std::vector<std::string>& warning
                        ": its fibres are not used: fibres.source is rule, expected file for them");
   }
   return anatomy;
+}
+
+}  // namespace
+
+Anatomy load_anatomy(const Protocol& protocol, std::vector<std::string>& warnings) {
+  return with_fibres(load_heart(protocol, warnings), protocol, warnings);
+}
+
+RunInput load_input(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                    const WallSizeRule& size) {
+  RunInput out{load_protocol(file, overrides), nullptr};
+  check_mesh_file(out.protocol);
+  std::vector<std::string> warnings;
+  const HeartMesh heart = load_heart(out.protocol, warnings, size);
+  if (out.protocol.scheme_assumed) {
+    const bool two = heart.file.mesh.surface({kRvEndocardium}).cols() > 0;
+    std::vector<std::string> all = overrides;
+    all.push_back("anatomy.scheme=" +
+                  protocol::name_of(two ? protocol::Scheme::aha29 : protocol::Scheme::aha17));
+    out.protocol = load_protocol(file, all);
+  }
+  out.anatomy = std::make_shared<const Anatomy>(with_fibres(heart, out.protocol, warnings));
+  out.protocol.warnings.insert(out.protocol.warnings.end(), warnings.begin(), warnings.end());
+  return out;
 }
 
 }  // namespace cardiac::app

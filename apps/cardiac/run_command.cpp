@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include <cardiac/heart/checkpoint.hpp>
+#include <cardiac/heart/plausibility.hpp>
 #include <cardiac/heart/trained_rule.hpp>
 #include <cardiac/heart/verification.hpp>
 #include <cardiac/protocol/describe.hpp>
@@ -40,7 +41,7 @@ struct RunOptions {
   std::string out;
   std::string method;
   std::vector<std::string> overrides;
-  bool verify = false, dry_run = false, resume = false, quiet = false, verbose = false;
+  bool verify = false, dry_run = false, resume = false, quiet = false, verbose = false, force = false;
 };
 
 void print_plan(const std::vector<PlanItem>& items) {
@@ -189,6 +190,17 @@ HeartPath solve(const Ventricle& ventricle, const Protocol& protocol, const RunO
                               : run_prescribed(ventricle, protocol, control);
 }
 
+// An absurd result is not a completed one, unless the user insists.
+void judge(BeatResult& result, bool insist) {
+  if (!result.completed) return;
+  std::string reason;
+  for (const std::string& text : absurdities(result)) reason += (reason.empty() ? "" : "; ") + text;
+  if (reason.empty()) return;
+  if (insist) return result.warnings.push_back("absurd result, kept by --force: " + reason);
+  result.completed = false;
+  result.stop_reason = "absurd result: " + reason;
+}
+
 // Why a path by a trained rule is not to be used; empty where it is.
 std::string distrust(const Ventricle& ventricle, const Protocol& protocol, const HeartPath& path) {
   if (!ventricle.all_points) return "";
@@ -204,15 +216,14 @@ std::string distrust(const Ventricle& ventricle, const Protocol& protocol, const
 void run(RunOptions options) {
   const auto start = std::chrono::steady_clock::now();
   if (!options.method.empty()) options.overrides.push_back("reduction.method=" + options.method);
-  Protocol protocol = load_protocol(given_or_example(options.protocol), options.overrides);
-  check_mesh_file(protocol);
+  auto [protocol, anatomy] =
+      load_input(given_or_example(options.protocol), options.overrides, {.insist = options.force});
   if (protocol.output.mesh_series && !writes_mesh_series()) {
     protocol.output.mesh_series = false;
     protocol.warnings.push_back(
         "output.mesh_series: this build writes no .vtu files (CMake option POLYAFFINE_WITH_VTK): left out");
   }
   const std::vector<PlanItem> items = plan(protocol, options.verify);
-  const auto anatomy = std::make_shared<const Anatomy>(load_anatomy(protocol, protocol.warnings));
   print_warnings(protocol.warnings);
   if (options.dry_run) return print_plan(items);
   const std::filesystem::path out =
@@ -242,6 +253,7 @@ void run(RunOptions options) {
   result.wall_setup_s = setup;
   result.wall_solve_s = solve_s;
   result.plan = items;
+  judge(result, options.force);
   print_warnings(result.warnings);
   result.warnings.insert(result.warnings.begin(), protocol.warnings.begin(), protocol.warnings.end());
   const RunInfo info{CARDIAC_VERSION, resolved_json(protocol).dump(), 0};
@@ -249,16 +261,17 @@ void run(RunOptions options) {
   result.wall_output_s = seconds_since(output_start);
   write_summary(protocol, result, info, out, wall, start);
   double verification_s = 0;
-  if (options.verify && path.completed && protocol.reduction.method == protocol::Method::polyaffine) {
+  if (options.verify && result.completed && protocol.reduction.method == protocol::Method::polyaffine) {
     verification_s = verify(ventricle, protocol, path, result, interrupt, options.quiet);
     write_summary(protocol, result, info, out, wall, start);
   }
   if (!options.quiet) print_result(result, verification_s, out);
   if (options.verbose && result.has_beat) print_timing(result);
-  if (!path.completed)
+  if (!result.completed)
     throw polyaffine::ComputationError(
-        path.stop_reason + "; what was computed is in " + out.string() +
-        (interrupt.reason().empty() || !protocol.circulation ? "" : ", --resume goes on"));
+        result.stop_reason + "; what was computed is in " + out.string() +
+        (path.completed ? " (--force takes it for a result)" : "") +
+        (interrupt.reason().empty() || path.completed || !protocol.circulation ? "" : ", --resume goes on"));
 }
 
 }  // namespace
@@ -278,6 +291,8 @@ void add_run_command(CLI::App& app) {
   command->add_flag("--dry-run", options->dry_run, "check the input, print what would be built, and stop");
   command->add_flag("--resume", options->resume,
                     "go on from the checkpoint.json of an interrupted run in the result directory");
+  command->add_flag("--force", options->force,
+                    "take a wall of any size and an absurd result, with a warning instead of status 2 and 1");
   command->add_flag("--verbose", options->verbose, "also print where the time of the solve went");
   command->add_flag("--quiet", options->quiet, "no progress, no summary; warnings go to stderr in any case");
   command->callback([options] { run(*options); });

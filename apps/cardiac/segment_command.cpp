@@ -46,6 +46,7 @@ struct SegmentOptions {
   FibreArrays arrays;
   std::vector<double> anterior{0, 1, 0}, long_axis;
   HelixAngles angles;
+  bool force = false;
 };
 
 std::optional<protocol::Labels> given_labels(const std::vector<std::string>& words) {
@@ -207,7 +208,7 @@ void segment(const SegmentOptions& o) {
         "--endo-angle, --epi-angle, --rv-endo-angle, --rv-epi-angle: found a number that is none, "
         "expected degrees");
   std::vector<std::string> warnings;
-  const HeartMesh heart = load_heart(protocol, warnings);
+  const HeartMesh heart = load_heart(protocol, warnings, {"--length-unit", o.force});
   const Anatomy anatomy = anatomy_of(heart, protocol);
   print_warnings(warnings);
   const auto nodes =
@@ -261,6 +262,7 @@ void add_segment_command(CLI::App& app) {
   command->add_option("--rv-epi-angle", o->angles.rv_epi_deg, "the same of the right free wall, deg")
       ->check(turn)
       ->capture_default_str();
+  command->add_flag("--force", o->force, "take a wall of any size");
   command->callback([o] {
     o->mesh = given_or_example(o->mesh);
     segment(*o);

@@ -106,6 +106,7 @@ HeartMesh fill_surface([[maybe_unused]] polyaffine::MeshData data,
   if (size_mm && !(*size_mm > 0 && std::isfinite(*size_mm)))
     throw InputError("--size: found " + std::to_string(*size_mm) + " mm, expected a positive length");
   const double volume = polyaffine::EnclosedVolume(data.triangles).value(data.points);
+  check_wall_size(std::abs(volume), options.mm_per_unit, options.size);
   const double area = polyaffine::triangle_areas(data.points, data.triangles).sum();
   const double edge = size_mm.value_or(-volume / area);
   polyaffine::MeshData filled;
@@ -128,6 +129,7 @@ HeartMesh fill_surface([[maybe_unused]] polyaffine::MeshData data,
   in_mm.mm_per_unit = 1;
   in_mm.labels = {};
   in_mm.label_array = labels.array.empty() ? "" : kField;
+  in_mm.told_mm_per_unit = options.mm_per_unit;
   return make_heart_mesh(std::move(filled), nullptr, in_mm);
 #else
   throw InputError(data.source.string() +

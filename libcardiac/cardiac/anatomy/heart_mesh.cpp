@@ -20,8 +20,6 @@ using polyaffine::InputError;
 using polyaffine::TetMesh;
 using Strings = std::vector<std::string>;
 
-constexpr double kLeastWall_mL = 1, kMostWall_mL = 1500;
-
 const char* name_of(int label) {
   constexpr std::array names{"none", "endocardium", "epicardium", "base", "right endocardium"};
   return names.at(label);
@@ -77,18 +75,6 @@ std::vector<int> canonical(const TetMesh& mesh, const TriangleLabels& given, boo
   return out;
 }
 
-void warn_of_size(const TetMesh& mesh, double mm_per_unit, Strings& warnings) {
-  const double mL = mesh.volume() / mm3_per_mL;
-  if (mL >= kLeastWall_mL && mL <= kMostWall_mL) return;
-  std::string better;
-  for (const auto& [unit, mm] : {std::pair{"um", 1e-3}, {"mm", 1.0}, {"cm", 10.0}, {"m", 1000.0}})
-    if (const double other = mL * std::pow(mm / mm_per_unit, 3);
-        other >= kLeastWall_mL && other <= kMostWall_mL)
-      better += (better.empty() ? "" : " or ") + number(other) + " mL in " + unit;
-  warnings.push_back(
-      "the wall has " + number(mL) +
-      " mL, outside 1 to 1500 mL, what hearts from a rat's to a horse's have: is the length unit right?" +
-      (better.empty() ? " No unit would do." : " It would be " + better + '.'));
 }
 
 void warn_of_swapped_ventricles(const TetMesh& mesh, Strings& warnings) {
@@ -119,10 +105,12 @@ HeartMesh build(polyaffine::MeshData volume, polyaffine::MeshData* surface, cons
     split_cavities(mesh, boundary, out.file.notes);
     mesh = mesh.with_labels(std::move(boundary));
     check_heart_surfaces(mesh.points(), mesh.boundary(), mesh.boundary_labels());
+    const std::string size =
+        check_wall_size(mesh.volume(), options.told_mm_per_unit.value_or(options.mm_per_unit), options.size);
+    if (!size.empty()) out.warnings.push_back(size);
   } catch (const InputError& error) {
     throw InputError(triangles.source.string() + ": " + error.what());
   }
-  warn_of_size(mesh, options.mm_per_unit, out.warnings);
   warn_of_swapped_ventricles(mesh, out.warnings);
   return out;
 }

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <optional>
+
 #include <cardiac/anatomy/fibre_fields.hpp>
 #include <cardiac/anatomy/surface_names.hpp>
 #include <cardiac/anatomy/tet_regions.hpp>
+#include <cardiac/anatomy/wall_size.hpp>
 #include <polyaffine/mesh_io/assemble.hpp>
 
 namespace cardiac {
@@ -15,6 +18,8 @@ struct HeartMeshOptions {
   RegionChoice regions{};
   FibreArrays fibre_arrays{};
   bool all_fields = false;  ///< keep every numeric array, not only fibres
+  WallSizeRule size{};
+  std::optional<double> told_mm_per_unit{};  ///< of the user's file, where the data are in mm already
 };
 
 /// A mesh whose boundary carries the labels kEndocardium, kEpicardium, kBase and, of two ventricles,
@@ -28,12 +33,11 @@ struct HeartMesh {
 /// Makes a heart of the data of a mesh file and, if there is one, of a second file with the labelled
 /// triangles (null: those of the mesh file). Without any label, or with numbers of which none is known, the
 /// surfaces are recognised from the shape; numbers then mean what most of their area is. Triangles of other
-/// labels are left out, with a note; so are, when regions are chosen, those of other parts. A wall of less
-/// than 1 or more than 1500 mL is a warning. Throws InputError, naming file and place, as
-/// read_triangle_labels, keep_regions, polyaffine::assemble, recognise_surfaces and check_heart_surfaces,
-/// when a surface lies inside, and when a fibre has no length; where the tets have several regions and none
-/// is chosen, the message lists them. `surface` may gain triangle labels that are made of those of its
-/// points.
+/// labels are left out, with a note; so are, when regions are chosen, those of other parts. Throws
+/// InputError, naming file and place, as read_triangle_labels, keep_regions, polyaffine::assemble,
+/// recognise_surfaces, check_heart_surfaces and check_wall_size, when a surface lies inside, and when a fibre
+/// has no length; where the tets have several regions and none is chosen, the message lists them. `surface`
+/// may gain triangle labels that are made of those of its points.
 HeartMesh make_heart_mesh(polyaffine::MeshData volume, polyaffine::MeshData* surface,
                           const HeartMeshOptions& options);
 

@@ -29,6 +29,7 @@ protocol::Axes axes_of(const Anatomy& anatomy, const Protocol& protocol, std::ve
   using protocol::Axes;
   const Axes asked = protocol.reduction.axes;
   if (asked == Axes::cartesian) return asked;
+  if (asked == Axes::automatic && anatomy.coordinates->right() != nullptr) return Axes::cartesian;
   const double misfit = radial_misfit_deg(anatomy);
   if (misfit <= kTurningAxes_deg) return Axes::heart;
   std::ostringstream text;

@@ -19,8 +19,8 @@ double radial_misfit_deg(const Anatomy& anatomy);
 inline constexpr double kTurningAxes_deg = 5;
 
 /// The axes that a protocol's reduced model with tents has on a wall: those it asks for; `automatic` heart
-/// axes, or Cartesian ones where they turn too fast. What there is to tell about that is added to the
-/// warnings.
+/// axes, or Cartesian ones where they turn too fast or there are two ventricles. What there is to tell about
+/// that is added to the warnings.
 protocol::Axes axes_of(const Anatomy& anatomy, const Protocol& protocol, std::vector<std::string>& warnings);
 
 }  // namespace cardiac

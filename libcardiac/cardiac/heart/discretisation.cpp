@@ -28,8 +28,8 @@ std::optional<int> right_label(const polyaffine::TetMesh& mesh) {
   return kRvEndocardium;
 }
 
-void check_scheme(bool two_ventricles, protocol::Scheme scheme) {
-  if (two_ventricles == (scheme == protocol::Scheme::aha29)) return;
+void check_scheme(bool two_ventricles, const std::optional<protocol::Scheme>& scheme) {
+  if (!scheme || two_ventricles == (*scheme == protocol::Scheme::aha29)) return;
   throw polyaffine::InputError(
       two_ventricles ? "anatomy.scheme: found aha17, but the mesh has two ventricles (a right endocardium); "
                        "expected aha29"

@@ -77,7 +77,9 @@ const Key* find_key(const Table& table, const std::string& name) {
   return found == table.keys.end() ? nullptr : &*found;
 }
 
-bool plays_a_part(const Table& table, const Key& key, const Protocol& protocol, std::size_t entry) {
+namespace {
+
+bool used_with_holds(const Table& table, const Key& key, const Protocol& protocol, std::size_t entry) {
   const std::string& with = key.facts.used_with;
   if (with.empty()) return true;
   const std::size_t dot = with.find('.');
@@ -90,12 +92,36 @@ bool plays_a_part(const Table& table, const Key& key, const Protocol& protocol, 
          std::ranges::find(key.facts.used_values, decisive.get<std::string>()) != key.facts.used_values.end();
 }
 
-std::string condition_text(const Table& table, const Key& key) {
+std::string used_with_text(const Table& table, const Key& key) {
   const std::string& with = key.facts.used_with;
   std::string text = with.empty() || with.find('.') != std::string::npos ? with : table.name + '.' + with;
   for (std::size_t i = 0; i < key.facts.used_values.size(); ++i) {
     text += (i ? " or " : " = ") + key.facts.used_values[i];
   }
+  return text;
+}
+
+void append(std::string& text, const std::string& condition) {
+  if (!condition.empty()) text += (text.empty() ? "" : ", with ") + condition;
+}
+
+}  // namespace
+
+bool plays_a_part(const Table& table, const Key& key, const Protocol& protocol, std::size_t entry) {
+  return unmet_text(table, key, protocol, entry).empty();
+}
+
+std::string unmet_text(const Table& table, const Key& key, const Protocol& protocol, std::size_t entry) {
+  std::string text;
+  if (!used_with_holds(table, key, protocol, entry)) append(text, used_with_text(table, key));
+  for (const Condition& condition : key.facts.also)
+    if (!condition.holds(protocol, entry)) append(text, condition.text);
+  return text;
+}
+
+std::string condition_text(const Table& table, const Key& key) {
+  std::string text = used_with_text(table, key);
+  for (const Condition& condition : key.facts.also) append(text, condition.text);
   return text;
 }
 

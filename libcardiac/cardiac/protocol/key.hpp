@@ -25,6 +25,13 @@ struct Range {
   bool without_low = false;  ///< low itself is not allowed
 };
 
+/// A circumstance without which a key plays no part, in words and as a test of a protocol (and, in a list of
+/// tables, of the entry).
+struct Condition {
+  std::string text;
+  std::function<bool(const Protocol&, std::size_t entry)> holds;
+};
+
 /// What a row of the table says of a key, apart from its name and the member it fills.
 struct KeyFacts {
   std::string unit = {};  ///< empty: dimensionless
@@ -37,6 +44,7 @@ struct KeyFacts {
       {};  ///< key that decides whether this one plays a part: of its table, or "table.key"
   std::vector<std::string> used_values = {};  ///< with these values; empty: when it is given at all
   bool path = false;                          ///< a file: relative to the folder of what names it
+  std::vector<Condition> also = {};           ///< and under all of these conditions
 };
 
 struct Key {
@@ -70,10 +78,14 @@ std::vector<Table> beat_tables();
 const Table* find_table(const std::string& name);
 const Key* find_key(const Table& table, const std::string& name);
 
-/// Does the key play a part, given its used_with key (in the same entry where that is of the same table)?
+/// Does the key play a part, given its used_with key (in the same entry where that is of the same table) and
+/// its conditions?
 bool plays_a_part(const Table& table, const Key& key, const Protocol& protocol, std::size_t entry);
 
-/// The condition under which the key plays a part, in words ("tissue.law = guccione"); empty without one.
+/// Those of the key's conditions that the protocol does not meet, in words; empty where it plays a part.
+std::string unmet_text(const Table& table, const Key& key, const Protocol& protocol, std::size_t entry);
+
+/// The conditions under which the key plays a part, in words ("tissue.law = guccione"); empty without one.
 std::string condition_text(const Table& table, const Key& key);
 
 /// A protocol in which every table is present once and holds its defaults.

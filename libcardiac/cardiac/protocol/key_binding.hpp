@@ -107,6 +107,12 @@ class TableBuilder {
     return *this;
   }
 
+  /// Every key so far plays its part under this condition.
+  TableBuilder& all(const Condition& condition) {
+    for (Key& key : table_.keys) key.facts.also.push_back(condition);
+    return *this;
+  }
+
   Table build() { return std::move(table_); }
   Table build_required() {
     table_.required = true;

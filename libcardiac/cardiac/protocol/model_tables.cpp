@@ -1,3 +1,4 @@
+#include <cardiac/protocol/conditions.hpp>
 #include <cardiac/protocol/key_binding.hpp>
 
 namespace cardiac::protocol {
@@ -29,7 +30,8 @@ Table mesh_table() {
             .absent = "an idealised shape is meshed",
             .path = true})
       .key("length_unit", &Mesh::length_unit,
-           {.meaning = "length unit of the coordinates in the mesh file; required with file, never guessed",
+           {.meaning = "length unit of the coordinates in the mesh file",
+            .absent = "required with file, never guessed",
             .used_with = "file"})
       .key(
           "shape", &Mesh::shape,
@@ -69,7 +71,9 @@ Table anatomy_table() {
       .key("scheme", &Anatomy::scheme,
            {.meaning = "division into segments: aha17, those of a left ventricle; aha29, with twelve more of "
                        "the right free wall, for a mesh of two ventricles",
-            .source = "AHA, Cerqueira 2002"})
+            .source = "AHA, Cerqueira 2002",
+            .absent = "aha29 with shape human_biventricle and with a mesh file of two ventricles (a right "
+                      "endocardium), else aha17"})
       .key("long_axis", &Anatomy::long_axis,
            {.meaning = "direction from apex to base in mesh coordinates, of any length",
             .absent = "from the apex to the centre of the base, found on the mesh"})
@@ -77,7 +81,9 @@ Table anatomy_table() {
            {.meaning =
                 "direction from the long axis to the anterior wall in mesh coordinates, of any length; "
                 "its part across the long axis counts, so it must not be parallel to it; a right ventricle "
-                "tells where anterior is, and this is not used"});
+                "tells where anterior is, and this is not used",
+            .source = "convention: the idealised shapes have their anterior wall at +y",
+            .also = {one_ventricle()}});
   return table.build();
 }
 
@@ -86,25 +92,29 @@ Table reduction_table() {
   table
       .key("method", &Reduction::method,
            {.meaning = "polyaffine: control frames, one a segment unless ring_nodes says otherwise, "
-                       "enriched; fem: full-order finite elements"})
+                       "enriched; fem: full-order finite elements",
+            .source = "measured: cardiac bench"})
       .key("preset", &Reduction::preset,
            {.meaning =
                 "set of enrichment, pressure_space and border_functions: fast {tt, lt; segment_depth}, "
                 "accurate {tt, lt, ct, ltt, ttt, ll; segment_bilinear}, the latter with {lc, cc} and "
                 "border_functions besides where a [[region]] differs from the rest: its bulge bends the "
                 "wall along l and c, and its strain jumps",
-            .source = "cardiac bench"})
+            .source = "measured: cardiac bench",
+            .also = {reduced()}})
       .key("weights", &Reduction::weights,
            {.meaning =
                 "influence of a control node: tents (piecewise linear in ventricular coordinates) or sigmoid "
                 "(of the signed geodesic distance to the border of the node's region)",
-            .source = "sigmoid: Desrues, Delingette, Sermesant"})
+            .source = "sigmoid: Desrues, Delingette, Sermesant; tents: measured, cardiac bench",
+            .also = {reduced()}})
       .key("sigmoid_slope", &Reduction::sigmoid_slope,
            {.range = above_zero(20),
             .meaning = "slope a of the sigmoid 1/(1 + exp(a d)), d the normalised signed distance",
             .source = "Desrues, Delingette, Sermesant",
             .used_with = "weights",
-            .used_values = {"sigmoid"}})
+            .used_values = {"sigmoid"},
+            .also = {reduced()}})
       .key(
           "enrichment", &Reduction::enrichment,
           {.meaning =
@@ -112,59 +122,74 @@ Table reduction_table() {
                "circumferential and depth coordinates: words of the letters l, c, t such as tt, lt, ctt. The "
                "frame of the cap, whose axes are Cartesian, has those of degree two, each with l and c "
                "exchanged besides",
-           .absent = "from preset"})
+           .absent = "from preset",
+           .also = {reduced()}})
       .key("border_functions", &Reduction::border_functions,
            {.meaning = "a displacement of its own for every border, and every corner, between segments whose "
                        "[[region]] factors differ; with ring_nodes [4, 6, 6] and weights tents",
-            .absent = "from preset"})
+            .absent = "from preset",
+            .also = {reduced(), some_differ()}})
       .key("pressure_space", &Reduction::pressure_space,
            {.meaning =
                 "functions of the volumetric pressure of each control node: none (every integration point on "
                 "its own), segment {1}, segment_depth {1, t}, segment_linear {1, l, c, t}, "
                 "segment_bilinear {1, l, c, t, lt, ct}",
-            .absent = "from preset"})
+            .absent = "from preset",
+            .also = {reduced(), separate_volume()}})
       .key("local_bulk_modulus_kPa", &Reduction::local_bulk_modulus_kPa,
            {.unit = "kPa",
             .range = {0, 1e6},
             .meaning = "part of the bulk modulus that acts at every integration point beside the pressure "
                        "space; one to two shear moduli keep local volumes in check. Not given, it is 20 with "
                        "[contraction] (a tenth of tissue.bulk_modulus_kPa at most), whose tension stiffens "
-                       "the wall; 60 where the wall is crushed (min_det_F)"})
-      .key(
-          "axes", &Reduction::axes,
-          {.meaning = "components of the unknowns along heart axes (longitudinal, "
-                      "circumferential, radial) or Cartesian axes; auto: heart axes, or Cartesian ones where "
-                      "those turn too fast, as in papillary muscles, with a warning"})
+                       "the wall; 60 where the wall is crushed (min_det_F)",
+            .source = "measured: two shear moduli of soft muscle (tissue.mu_kPa)",
+            .also = {reduced(), separate_volume(), mixed()}})
+      .key("axes", &Reduction::axes,
+           {.meaning =
+                "components of the unknowns along heart axes (longitudinal, "
+                "circumferential, radial) or Cartesian axes; auto: with one ventricle heart axes, or "
+                "Cartesian ones where those turn too fast, as in papillary muscles, with a warning; with "
+                "two ventricles Cartesian axes",
+            .source = "measured: of one ventricle heart axes, of two Cartesian ones are nearer to full order",
+            .also = {reduced(), tents()}})
       .key("ring_nodes", &Reduction::ring_nodes,
            {.range = {3, 60},
             .meaning =
                 "control nodes of each ring from apex to base, beside the one of the cap; [4, 6, 6] with "
                 "ring_angles_deg 0 are the AHA segments. Strain is told by AHA segment with any number; "
                 "the affine parameters are then those that fit each segment best",
-            .source = "AHA, Cerqueira 2002"})
-      .key("ring_positions", &Reduction::ring_positions,
-           {.range = {0, 1},
-            .meaning = "apicobasal coordinate of each ring of control nodes, 0 apex to 1 base, rising",
-            .absent =
-                "0.2, 0.5, 0.85 for the AHA segments; with other ring_nodes k/(n + 1/2) for ring k of n"})
+            .source = "AHA, Cerqueira 2002",
+            .also = {reduced()}})
+      .key(
+          "ring_positions", &Reduction::ring_positions,
+          {.range = {0, 1},
+           .meaning = "apicobasal coordinate of each ring of control nodes, 0 apex to 1 base, rising",
+           .absent = "0.2, 0.5, 0.85 for the AHA segments; with other ring_nodes k/(n + 1/2) for ring k of n",
+           .also = {reduced()}})
       .key(
           "ring_angles_deg", &Reduction::ring_angles_deg,
           {.unit = "deg",
            .range = {-180, 180},
            .meaning = "angle about the long axis of the first node of each ring, 0 anterior, growing towards "
                       "the septum; the others follow at equal steps",
-           .absent = "0 for every ring"})
+           .absent = "0 for every ring",
+           .also = {reduced()}})
       .key(
           "integration", &Reduction::integration,
           {.meaning = "integration points: cells (Gauss points of the cells between the kinks of the weights "
                       "and the borders of segments that differ), gauss (in every tetrahedron) or trained "
                       "(about half of the cells' "
                       "points, chosen once for the heart on states of other pressures, tensions and "
-                      "stiffnesses, kept in the cache)"})
-      .key(
-          "element_order", &Reduction::element_order,
-          {.range = {1, 2},
-           .meaning = "order of the elements of the full-order model; order 1 locks near incompressibility"});
+                      "stiffnesses, kept in the cache)",
+           .source = "measured: cardiac bench",
+           .also = {reduced()}})
+      .key("element_order", &Reduction::element_order,
+           {.range = {1, 2},
+            .meaning = "order of the elements of the full-order model; order 1 locks near incompressibility",
+            .source = "measured: cardiac validate ellipsoid and land",
+            .used_with = "method",
+            .used_values = {"fem"}});
   return table.build();
 }
 
@@ -192,14 +217,19 @@ Table tissue_table() {
   table
       .key("law", &Tissue::law,
            {.meaning = "passive law; guccione and holzapfel_ogden act on isochoric strains (I4, I8 of "
-                       "holzapfel_ogden excepted), with a volumetric energy beside them"})
+                       "holzapfel_ogden excepted), with a volumetric energy beside them",
+            .source = "Guccione 1991; the law of protocols/healthy_lv.toml"})
       .key("C_kPa", &Tissue::C_kPa,
            guccione("kPa",
                     "C of W = C/2 (exp Q − 1), Q = bf E_ff² + bt (E_ss² + E_nn² "
                     "+ 2 E_sn²) + 2 bfs (E_fs² + E_fn²)"))
       .key("bf", &Tissue::bf, guccione("", "stiffness along the fibre in Q (see C_kPa)"))
       .key("bt", &Tissue::bt, guccione("", "stiffness across the fibre in Q (see C_kPa)"))
-      .key("bfs", &Tissue::bfs, guccione("", "shear stiffness in Q (see C_kPa)"))
+      .key("bfs", &Tissue::bfs,
+           of_law(
+               "guccione", "", above_zero(1000), "shear stiffness in Q (see C_kPa)",
+               "law Guccione 1991; value chosen for the longitudinal strain of a healthy beat: GLS -14.6 %, "
+               "with the 4 of Land 2015, problem 3, -13.9 %"))
       .key("a_kPa", &Tissue::a_kPa, ogden("kPa", 1000, "a of a/(2b) (exp(b (I1 − 3)) − 1)"))
       .key("b", &Tissue::b, ogden("", 200, "b of the isotropic term (see a_kPa)"))
       .key("a_f_kPa", &Tissue::a_f_kPa, ogden("kPa", 1000, "a_f of a_f/(2b_f) (exp(b_f (I4f − 1)²) − 1)"))
@@ -233,7 +263,8 @@ Table tissue_table() {
            {.unit = "kPa·ms",
             .range = {0, 1e5},
             .meaning = "viscosity η of the second Piola–Kirchhoff stress S = η dE/dt",
-            .source = "Aróstica 2025: 100 Pa·s"});
+            .source = "Aróstica 2025: 100 Pa·s",
+            .also = {contracts()}});
   return table.build();
 }
 
@@ -247,18 +278,24 @@ KeyFacts of_source(std::string source, std::string meaning, std::string absent) 
 }
 
 Table fibres_table() {
+  KeyFacts sheet_array = of_source("file", "array of the mesh file with the sheet directions",
+                                   "the usual names (sheet, s0, sheet_normal, n0, …), if there are any");
+  sheet_array.also = {along_sheets()};
+  const std::string healthy =
+      "Streeter 1969: 60 and -60; 70 and -70 for the longitudinal strain of a healthy beat: GLS -14.6 %, "
+      "with 60 "
+      "-11.6 %";
   TableBuilder table("fibres", "Direction of the muscle fibres.", &Protocol::fibres);
   table
       .key("source", &Fibres::source,
            {.meaning = "rule: the directions of rule and its angles; file: those that the mesh file brings, "
                        "vectors of points or of tets, of any length and sign; without sheet directions the "
-                       "sheet is the wall normal across the fibre"})
+                       "sheet is the wall normal across the fibre",
+            .source = "convention: few meshes bring fibres"})
       .key("fibre_array", &Fibres::fibre_array,
            of_source("file", "array of the mesh file with the fibre directions",
                      "the first of the usual names: fibre, fiber, f0, …"))
-      .key("sheet_array", &Fibres::sheet_array,
-           of_source("file", "array of the mesh file with the sheet directions",
-                     "the usual names (sheet, s0, sheet_normal, n0, …), if there are any"))
+      .key("sheet_array", &Fibres::sheet_array, sheet_array)
       .key("rule", &Fibres::rule,
            {.meaning = "helix: the angle from the circumferential towards the longitudinal (base) direction "
                        "varies linearly through the depth of the wall",
@@ -269,38 +306,43 @@ Table fibres_table() {
            {.unit = "deg",
             .range = {-90, 90},
             .meaning = "helix angle at the endocardium",
-            .source = "Bayer 2012",
+            .source = healthy,
             .used_with = "source",
             .used_values = {"rule"}})
       .key("epi_angle_deg", &Fibres::epi_angle_deg,
            {.unit = "deg",
             .range = {-90, 90},
             .meaning = "helix angle at the epicardium",
-            .source = "Bayer 2012",
+            .source = healthy,
             .used_with = "source",
             .used_values = {"rule"}})
       .key("sheet_angle_deg", &Fibres::sheet_angle_deg,
            {.unit = "deg",
             .range = {-90, 90},
             .meaning = "angle of the sheet direction from the wall normal, about the fibre",
+            .source = "convention: sheets along the wall normal",
             .used_with = "source",
-            .used_values = {"rule"}})
+            .used_values = {"rule"},
+            .also = {along_sheets()}})
       .key("rv_endo_angle_deg", &Fibres::rv_endo_angle_deg,
            {.unit = "deg",
             .range = {-180, 180},
             .meaning = "helix angle at the endocardium of the right free wall",
-            .source = "Bayer 2012",
+            .source = healthy,
             .used_with = "source",
-            .used_values = {"rule"}})
+            .used_values = {"rule"},
+            .also = {two_ventricles()}})
       .key(
           "rv_epi_angle_deg", &Fibres::rv_epi_angle_deg,
           {.unit = "deg",
            .range = {-180, 180},
            .meaning = "helix angle at the epicardium of the right free wall; -60 and 120 are the same fibre, "
                       "to which the angle turns through circumferential or through longitudinal fibres",
-           .source = "Bayer 2012",
+           .source = healthy,
            .used_with = "source",
-           .used_values = {"rule"}});
+           .used_values = {"rule"},
+           .also = {two_ventricles()}});
+  table.all(along_fibres());
   return table.build();
 }
 

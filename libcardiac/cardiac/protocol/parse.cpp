@@ -127,9 +127,10 @@ void warn_of_unused(Protocol& protocol, const std::vector<Entry>& entries) {
     if (entry.key.empty()) continue;
     const Table& table = *find_table(entry.table);
     const Key& key = *find_key(table, entry.key);
-    if (plays_a_part(table, key, protocol, entry.index)) continue;
+    const std::string unmet = unmet_text(table, key, protocol, entry.index);
+    if (unmet.empty()) continue;
     protocol.warnings.push_back(entry.where + ": " + path_of(entry) + " plays no part: it goes with " +
-                                condition_text(table, key));
+                                unmet);
   }
 }
 
@@ -178,6 +179,7 @@ Protocol parse_protocol(const std::string& text, const std::filesystem::path& so
   for (const Entry& entry : entries) assign(protocol, entry);
   check_required(protocol, entries, source.string());
   const Place place = place_in(entries, source.string());
+  fill_scheme(protocol);
   check_rules(protocol, place);
   fill_presets(protocol);
   const Entry local{"reduction", 0, "local_bulk_modulus_kPa", {}, {}, {}};

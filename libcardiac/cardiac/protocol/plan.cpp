@@ -95,14 +95,14 @@ std::vector<PlanItem> plan(const Protocol& protocol, bool verify) {
   std::vector<PlanItem> items = {
       mesh_item(protocol),
       {"coordinates", true, "segments, local axes and strain need them"},
-      {"segments", true, "strain is told by segment (" + name_of(protocol.anatomy.scheme) + ")"},
+      {"segments", true, "strain is told by segment (" + name_of(*protocol.anatomy.scheme) + ")"},
       fibres_item(protocol),
       activation_item(protocol),
       contraction_item(protocol),
       cavity_item(protocol),
       circulation_item(protocol),
       regions_item(protocol),
-      reduction_item(protocol.reduction, protocol.anatomy.scheme),
+      reduction_item(protocol.reduction, *protocol.anatomy.scheme),
       {"full order", !reduced || verify, reduced && verify ? "--verify" : method}};
   if (reduced && verify) {
     items.push_back({"verification", true, "--verify: full order at end diastole and end systole"});

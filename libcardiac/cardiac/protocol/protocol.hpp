@@ -28,6 +28,7 @@ struct Protocol {
 
   std::filesystem::path directory;    ///< of the protocol file; mesh.file is relative to it
   std::vector<std::string> warnings;  ///< keys that were given but play no part, each with its reason
+  bool scheme_assumed = false;  ///< aha17 until the mesh file is read: neither key nor shape tells the scheme
 };
 
 /// Path of the mesh file; only with a mesh.file.

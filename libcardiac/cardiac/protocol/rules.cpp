@@ -201,11 +201,20 @@ void check_regions(const std::vector<RegionOverride>& regions, Scheme scheme, co
 
 }  // namespace
 
+bool region_differs(const Protocol& protocol, const RegionOverride& region) {
+  return region.stiffness_factor != 1 ||
+         (protocol.contraction && (region.tension_factor != 1 || region.activation_delay_ms != 0));
+}
+
 bool regions_differ(const Protocol& protocol) {
-  return std::ranges::any_of(protocol.regions, [&](const RegionOverride& r) {
-    return r.stiffness_factor != 1 ||
-           (protocol.contraction && (r.tension_factor != 1 || r.activation_delay_ms != 0));
-  });
+  return std::ranges::any_of(protocol.regions,
+                             [&](const RegionOverride& r) { return region_differs(protocol, r); });
+}
+
+void fill_scheme(Protocol& protocol) {
+  std::optional<Scheme>& scheme = protocol.anatomy.scheme;
+  protocol.scheme_assumed = !scheme && !protocol.mesh.shape;
+  if (!scheme) scheme = protocol.mesh.shape == Shape::human_biventricle ? Scheme::aha29 : Scheme::aha17;
 }
 
 // Tension stiffens muscle, several times over the passive wall.
@@ -271,7 +280,7 @@ void check_rules(const Protocol& protocol, const Place& place) {
   check_activity(protocol, place);
   check_contraction_time(protocol, place);
   check_load(protocol, place);
-  check_regions(protocol.regions, protocol.anatomy.scheme, place);
+  check_regions(protocol.regions, protocol.scheme_assumed ? Scheme::aha29 : *protocol.anatomy.scheme, place);
 }
 
 }  // namespace cardiac::protocol

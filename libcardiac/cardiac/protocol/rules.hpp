@@ -10,6 +10,10 @@ namespace cardiac::protocol {
 /// Where a key was given ("file:12"), or where it could be ("file") when it was not; for messages.
 using Place = std::function<std::string(const std::string& path)>;
 
+/// The scheme that the file does not name: that of the shape; aha17 for a mesh file, said in
+/// Protocol::scheme_assumed.
+void fill_scheme(Protocol& protocol);
+
 /// The presets, written out: enrichment and pressure space that the file does not name, and the duration of
 /// the contraction by the heart rate. The accurate preset has more functions along the wall where regions
 /// differ.
@@ -24,6 +28,7 @@ void warn_of_limits(Protocol& protocol, const Place& place);
 /// Does some [[region]] move otherwise than the rest: another stiffness or, where something contracts,
 /// another tension or time?
 bool regions_differ(const Protocol& protocol);
+bool region_differs(const Protocol& protocol, const RegionOverride& region);
 
 /// What a single key cannot tell: keys that need, exclude or contradict one another. Throws
 /// polyaffine::InputError at the first violation.

@@ -6,8 +6,9 @@
 #include <variant>
 #include <vector>
 
-/// The tables of a protocol. The initial values are the defaults of the protocol file; meaning, range and
-/// source of every key stand in the key table (key_table.cpp) and are printed by `cardiac explain KEY`.
+/// The tables of a protocol. The initial values are the defaults of the protocol file, those of a healthy
+/// human heart; meaning, range and source of every key stand in the key table (model_tables.cpp,
+/// beat_tables.cpp) and are printed by `cardiac explain KEY`.
 namespace cardiac::protocol {
 
 using Vector3 = std::array<double, 3>;
@@ -26,7 +27,7 @@ struct Mesh {
 
 enum class Scheme { aha17, aha29 };
 struct Anatomy {
-  Scheme scheme = Scheme::aha17;
+  std::optional<Scheme> scheme;      ///< absent: by the mesh; the parser sets it for a shape
   std::optional<Vector3> long_axis;  ///< apex to base; absent: normal of the base
   Vector3 anterior_direction = {0, 1, 0};
 };
@@ -57,7 +58,7 @@ struct Reduction {
 enum class TissueLaw { guccione, holzapfel_ogden, neo_hookean, mooney_rivlin, saint_venant_kirchhoff };
 struct Tissue {
   TissueLaw law = TissueLaw::guccione;
-  double C_kPa = 2, bf = 8, bt = 2, bfs = 4;             ///< guccione
+  double C_kPa = 2, bf = 8, bt = 2, bfs = 20;            ///< guccione
   double a_kPa = 0.059, b = 8.023;                       ///< holzapfel_ogden, matrix
   double a_f_kPa = 18.472, b_f = 16.026;                 ///< fibres
   double a_s_kPa = 2.481, b_s = 11.12;                   ///< sheets
@@ -75,9 +76,9 @@ struct Fibres {
   FibreSource source = FibreSource::rule;
   std::optional<std::string> fibre_array, sheet_array;  ///< of the mesh file; absent: the usual names
   FibreRule rule = FibreRule::helix;
-  double endo_angle_deg = 60, epi_angle_deg = -60;        ///< from circumferential towards the base
+  double endo_angle_deg = 70, epi_angle_deg = -70;        ///< from circumferential towards the base
   double sheet_angle_deg = 0;                             ///< of the sheet direction from the wall normal
-  double rv_endo_angle_deg = 60, rv_epi_angle_deg = -60;  ///< in the right free wall
+  double rv_endo_angle_deg = 70, rv_epi_angle_deg = -70;  ///< in the right free wall
 };
 
 enum class ActivationMode { uniform, sites };
@@ -93,12 +94,12 @@ struct Activation {
 enum class ContractionModel { bestel_clement_sorine_simplified };
 struct Contraction {
   ContractionModel model = ContractionModel::bestel_clement_sorine_simplified;
-  double contractility_kPa = 150;
+  double contractility_kPa = 155;
   double activation_rate_per_s = 5;
   double relaxation_rate_per_s = 30;
   std::optional<double> activation_duration_ms;  ///< set by the heart rate when the file does not name it
   double switch_width_ms = 5;
-  double cross_fibre_fraction = 0;
+  double cross_fibre_fraction = 0.3;
 };
 
 struct Cavities {
@@ -113,9 +114,9 @@ struct Circulation {
   std::optional<double> aortic_leak_resistance_mmHg_s_per_mL;  ///< backwards; absent: the valve is tight
   double characteristic_resistance_mmHg_s_per_mL = 0.04;
   double peripheral_resistance_mmHg_s_per_mL = 1.0;
-  double compliance_mL_per_mmHg = 1.5;
+  double compliance_mL_per_mmHg = 1.3;
   double venous_pressure_mmHg = 5;
-  double initial_aortic_pressure_mmHg = 80;
+  double initial_aortic_pressure_mmHg = 75;
   double right_filling_pressure_mmHg = 5;  ///< from here on: of the closed loop of two ventricles
   double tricuspid_resistance_mmHg_s_per_mL = 0.01;
   double pulmonary_valve_resistance_mmHg_s_per_mL = 0.007;
@@ -124,7 +125,7 @@ struct Circulation {
   double pulmonary_compliance_mL_per_mmHg = 5;
   double pulmonary_venous_compliance_mL_per_mmHg = 16;
   double systemic_venous_compliance_mL_per_mmHg = 16;
-  double initial_pulmonary_pressure_mmHg = 15;
+  double initial_pulmonary_pressure_mmHg = 12;
 };
 
 enum class Base { clamped };

@@ -134,12 +134,25 @@ TEST_F(ImportCommand, RepairsAreSaidAndUnitsKept) {
   EXPECT_NEAR(written().mesh.volume(), land().volume(), 1e-9 * land().volume());
 }
 
-TEST_F(ImportCommand, AWallOfAbsurdSizeIsAWarningThatNamesTheUnit) {
+TEST_F(ImportCommand, AWallOfNoHeartsSizeIsRefusedUnlessForced) {
   testing_io::write_opencarp(in("heart.pts"), land_data());
   const ProgramRun run = import("heart.elem", "--length-unit m");
-  ASSERT_EQ(run.status, 0) << run.err;
-  EXPECT_THAT(run.err, AllOf(HasSubstr("warning"), HasSubstr("mL"), HasSubstr("outside 1 to 1500 mL"),
-                             HasSubstr("in mm")));
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err,
+              AllOf(HasSubstr("--length-unit: the wall has "), HasSubstr(" mL in m, "),
+                    HasSubstr("expected 0.015 to 10000 mL"), HasSubstr(" mL in mm"), HasSubstr("--force")));
+  const ProgramRun forced = import("heart.elem", "--length-unit m --force");
+  ASSERT_EQ(forced.status, 0) << forced.err;
+  EXPECT_THAT(forced.err, AllOf(HasSubstr("warning"), HasSubstr("--length-unit: the wall has ")));
+}
+
+// A closed surface is held to the bounds before it is filled, by the unit of its file.
+TEST_F(ImportCommand, AClosedSurfaceOfNoHeartsSizeIsRefused) {
+  testing_io::write_stl(in("heart.stl"), land_data(), true);
+  const ProgramRun run = import("heart.stl", "--length-unit m");
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, AllOf(HasSubstr("--length-unit: the wall has "), HasSubstr(" mL in m, "),
+                             HasSubstr(" mL in mm")));
 }
 
 TEST_F(ImportCommand, FieldsOnRequest) {

@@ -190,6 +190,23 @@ TEST(Explain, UnknownKeyNamesTheNearest) {
   EXPECT_THAT(message("heartrate_bpm"), HasSubstr("time.heart_rate_bpm"));
 }
 
+TEST(Explain, EveryDefaultNamesItsSource) {
+  using namespace cardiac::protocol;
+  for (const Table& table : tables())
+    for (const Key& key : table.keys) {
+      const bool standard = !key.facts.required && !key.get(default_protocol(), 0).is_null();
+      if (standard) {
+        EXPECT_FALSE(key.facts.source.empty()) << table.name << '.' << key.name;
+        EXPECT_THAT(cardiac::explain(table.name + '.' + key.name), HasSubstr("\n  source    "));
+      } else {
+        EXPECT_TRUE(key.facts.required || !key.facts.absent.empty()) << table.name << '.' << key.name;
+      }
+    }
+  const json schema = cardiac::protocol_schema();
+  EXPECT_EQ(schema.at("properties").at("tissue").at("properties").at("viscosity_kPa_ms").at("source"),
+            "Aróstica 2025: 100 Pa·s");
+}
+
 TEST(EditDistance, CountsChanges) {
   using cardiac::protocol::edit_distance;
   EXPECT_EQ(edit_distance("kitten", "sitting"), 3);  // the textbook pair
@@ -212,9 +229,23 @@ TEST(Resolved, ReadsBackAsTheSameProtocol) {
   }
 }
 
+TEST(Resolved, TheShippedHealthyHeartsAreTheDefaults) {
+  for (const auto& [name, shape] :
+       {std::pair{"healthy_lv", "human_lv"}, {"healthy_biv", "human_biventricle"}}) {
+    json shipped = cardiac::resolved_json(
+        cardiac::load_protocol(PROJECT_DIR "/protocols/" + std::string(name) + ".toml"));
+    json standard = cardiac::resolved_json(parsed(kBeat, {"mesh.shape=" + std::string(shape)}));
+    shipped.erase("mesh");
+    standard.erase("mesh");
+    EXPECT_EQ(shipped, standard) << name;
+  }
+}
+
 TEST(Resolved, HoldsDefaultsAndLeavesOutWhatPlaysNoPart) {
   const json passive = cardiac::resolved_json(parsed(kPassive));
-  EXPECT_EQ(passive.at("time").at("heart_rate_bpm"), 75);
+  EXPECT_EQ(passive.at("time").at("load_steps"), 10);
+  EXPECT_FALSE(passive.at("time").contains("heart_rate_bpm"));
+  EXPECT_EQ(cardiac::resolved_json(parsed(kBeat)).at("time").at("heart_rate_bpm"), 75);
   EXPECT_EQ(passive.at("reduction").at("enrichment"), json({"tt", "lt"}));
   EXPECT_TRUE(passive.at("tissue").contains("mu_kPa"));
   EXPECT_FALSE(passive.at("tissue").contains("C_kPa"));

@@ -46,8 +46,8 @@ TEST(Parse, AbsentTablesStayAbsentAndNamedOnesTakeDefaults) {
   const auto beat = parsed(kBeat);
   EXPECT_TRUE(beat.fibres && beat.activation && beat.contraction && beat.circulation);
   EXPECT_FALSE(beat.cavities);
-  EXPECT_EQ(beat.fibres->endo_angle_deg, 60);
-  EXPECT_EQ(beat.fibres->epi_angle_deg, -60);
+  EXPECT_EQ(beat.fibres->endo_angle_deg, 70);
+  EXPECT_EQ(beat.fibres->epi_angle_deg, -70);
 }
 
 TEST(Parse, AccuratePresetBendsTheWallWhereRegionsDiffer) {
@@ -78,6 +78,27 @@ TEST(Parse, AccuratePresetBendsTheWallWhereRegionsDiffer) {
   EXPECT_TRUE(borders(weak, {"reduction.preset=fast", "reduction.border_functions=true"}));
   EXPECT_FALSE(borders(weak, {"reduction.ring_nodes=[4, 8, 8, 8]"}));
   EXPECT_FALSE(borders(weak, {"reduction.weights=sigmoid"}));
+}
+
+TEST(Parse, SchemeFollowsTheShapeAndAxesTheWall) {
+  using cardiac::protocol::Axes;
+  using cardiac::protocol::Scheme;
+  const auto one = parsed(kBeat), two = parsed(kBeat, {"mesh.shape=human_biventricle"});
+  EXPECT_EQ(one.anatomy.scheme, Scheme::aha17);
+  EXPECT_EQ(one.reduction.axes, Axes::automatic);
+  EXPECT_EQ(two.anatomy.scheme, Scheme::aha29);
+  EXPECT_EQ(two.reduction.axes, Axes::automatic);
+  EXPECT_FALSE(one.scheme_assumed || two.scheme_assumed);
+  EXPECT_EQ(parsed(kBeat, {"mesh.shape=human_biventricle", "reduction.axes=heart"}).reduction.axes,
+            Axes::heart);
+  // A mesh file tells only when it is read; until then any segment may be named.
+  const std::string file =
+      "[mesh]\nfile = \"heart.vtu\"\nlength_unit = \"mm\"\n" + kBeat.substr(kBeat.find("[fibres]"));
+  EXPECT_TRUE(parsed(file).scheme_assumed);
+  EXPECT_FALSE(parsed(file, {"anatomy.scheme=aha17"}).scheme_assumed);
+  const std::string right = file + "[[region]]\nsegments = [20]\n";
+  EXPECT_NO_THROW(parsed(right));
+  EXPECT_THAT(refusal(right, {"anatomy.scheme=aha17"}), HasSubstr("found segment 20, expected at most 17"));
 }
 
 TEST(Parse, PresetFillsWhatTheFileLeavesOut) {

@@ -137,4 +137,28 @@ TEST(Rules, ContractionMustFitIntoABeat) {
   EXPECT_NO_THROW(parsed(kBeat, {"time.heart_rate_bpm=190"}));
 }
 
+TEST(Rules, EachConditionThatIsNotMetIsNamed) {
+  const auto told = [](const std::string& text, const std::string& setting, const std::string& unmet) {
+    const auto warnings = parsed(text, {setting}).warnings;
+    ASSERT_THAT(warnings, SizeIs(1)) << setting;
+    EXPECT_THAT(warnings[0],
+                AllOf(HasSubstr(setting.substr(0, setting.find('=')) + " plays no part: it goes with "),
+                      testing::EndsWith(unmet)));
+  };
+  const std::string full = kBeat + "[reduction]\nmethod = \"fem\"\n";
+  told(full, "reduction.preset=accurate", "reduction.method = polyaffine");
+  told(full, "reduction.sigmoid_slope=2", "reduction.weights = sigmoid, with reduction.method = polyaffine");
+  told(kBeat, "reduction.element_order=1", "reduction.method = fem");
+  told(kPassive, "time.heart_rate_bpm=60", "[contraction]");
+  told(kPassive, "time.max_beats=3", "[circulation]");
+  told(kBeat, "time.load_steps=3", "a run without [circulation]");
+  told(kBeat, "fibres.sheet_angle_deg=10", "tissue.law = holzapfel_ogden");
+  told(kBeat, "fibres.rv_endo_angle_deg=10", "anatomy.scheme = aha29");
+  told(kPassive, "fibres.endo_angle_deg=10", "[contraction] or an anisotropic tissue.law");
+  told(kPassive, "activation.onset_ms=10", "[contraction]");
+  told(kPassive + "[[region]]\nsegments = [1]\n", "region.1.tension_factor=0", "[contraction]");
+  told(kBeat + "[[region]]\nsegments = [1]\n", "region.1.border_width_percent=0",
+       "a factor or delay of its [[region]] that differs from the rest");
+}
+
 }  // namespace

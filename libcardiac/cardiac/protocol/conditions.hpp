@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cardiac/protocol/key.hpp>
+
+/// When keys play a part, beside the key that they are used with (KeyFacts::used_with). For the tables of
+/// keys only.
+namespace cardiac::protocol {
+
+/// Something contracts.
+Condition contracts();
+/// Beats in a circulation are computed, not a prescribed pressure.
+Condition beats();
+/// The pressure is prescribed, or nothing but the contraction loads the wall.
+Condition prescribed();
+/// The model is a reduced one.
+Condition reduced();
+/// The law has a volumetric energy of its own.
+Condition separate_volume();
+/// That is kept by a pressure space, of which a local bulk modulus takes a part.
+Condition mixed();
+/// The reduced model has tent weights.
+Condition tents();
+/// The mesh has one ventricle, or two.
+Condition one_ventricle();
+Condition two_ventricles();
+/// The muscle contracts or its law is anisotropic.
+Condition along_fibres();
+/// The law tells sheets from their normals; the active tension does not.
+Condition along_sheets();
+/// The entry of [[region]] differs from the rest; some entry does.
+Condition differs();
+Condition some_differ();
+
+}  // namespace cardiac::protocol
