@@ -93,8 +93,10 @@ void add_motion(const Ventricle& ventricle, const std::vector<ControlNode>& node
 
 void warn_of_crushing(bool full_order, BeatResult& out) {
   if (out.min_det_F >= kCrushed) return;
-  out.warnings.push_back("the wall was compressed to " + std::to_string(100 * out.min_det_F) +
-                         " % of its volume somewhere (min_det_F): the numbers are not those of muscle; "
+  const std::string what = out.min_det_F > 0 ? std::to_string(100 * out.min_det_F) + " % of its volume"
+                                             : "nothing, and turned inside out,";
+  out.warnings.push_back("the wall was compressed to " + what +
+                         " somewhere (min_det_F): the numbers are not those of muscle; "
                          "lower the load, or raise " +
                          (full_order ? "tissue.bulk_modulus_kPa"
                                      : "reduction.local_bulk_modulus_kPa (60 where muscle contracts)"));

@@ -16,7 +16,7 @@ using polyaffine::Vector;
 namespace {
 
 constexpr const char* kKind =
-    "cubature-7";  // the number changes when the training or the points it chooses from do
+    "cubature-8";  // the number changes when the training or the points it chooses from do
 
 // The mesh and the parts of a protocol that the training reads.
 std::string rule_key(const Anatomy& anatomy, const Protocol& protocol) {
