@@ -69,15 +69,21 @@ TEST(Prescribed, PressureRisesToTheOneAskedForAndTheCavityWithIt) {
 
 // The wall at rest is in equilibrium with no pressure, and next to it with next to none.
 TEST(Prescribed, NoPressureMovesNothingAndALittleALittle) {
-  const auto opened = [](const std::string& pressure_mmHg) {
-    const HeartRun run(testing::shipped_protocol(
+  const auto run_at = [](const std::string& pressure_mmHg) {
+    return HeartRun(testing::shipped_protocol(
         "passive_inflation",
         testing::on_land_ellipsoid({"cavities.pressure_mmHg=" + pressure_mmHg, "tissue.law=guccione",
                                     "fibres.endo_angle_deg=60", "time.load_steps=2"})));
+  };
+  const auto opened = [&](const std::string& pressure_mmHg) {
+    const HeartRun run = run_at(pressure_mmHg);
     EXPECT_TRUE(run.path.completed) << run.path.stop_reason;
     return run.path.steps.back().volume_mm3 - run.path.steps.front().volume_mm3;
   };
   EXPECT_NEAR(opened("0.0"), 0, 1e-9);
+  const HeartRun still = run_at("0.0");
+  for (const auto& instant : verify_path(still.ventricle, still.protocol, still.path))
+    EXPECT_EQ(instant.displacement_error_percent, 0) << instant.instant;
   const double compliance = opened("1e-3") / 1e-3;  // mm³/mmHg
   EXPECT_GT(compliance, 10);
   EXPECT_NEAR(opened("1e-6") / 1e-6, compliance, 1e-2 * compliance);
