@@ -15,6 +15,7 @@ namespace {
 constexpr double kFurthest = 50;        // differences of two beats that an estimate may lie away
 constexpr double kLargestChange = 0.5;  // of a pressure, in an estimate
 constexpr double kNoiseShare = 0.01;    // of the largest singular value
+constexpr double kUnexplained = 10;     // what counts a difference that the beats so far do not explain
 constexpr int kNoiseBeats = 3;
 constexpr int kSpareBeats = 3;  // among which those that differ most are chosen
 
@@ -75,7 +76,8 @@ CycleEstimate estimate_limit_cycle(const std::vector<CycleBeat>& beats, int volu
                                     (volume - last.start.head(volumes)).cwiseAbs().maxCoeff()) /
                            std::abs(last.stroke_mm3);
   out.pressures_kPa = limit.cwiseProduct(size);
-  out.distance_percent = 100 * std::max(away.cwiseAbs().maxCoeff(), of_stroke);
+  const double unexplained = kUnexplained * (g - dg * theta).cwiseAbs().maxCoeff();
+  out.distance_percent = 100 * (std::max(away.cwiseAbs().maxCoeff(), of_stroke) + unexplained);
   out.extrapolated = true;
   return out;
 }

@@ -28,7 +28,8 @@ struct CycleEstimate {
 ///   x* = x_n + g_n − Σ θ_j (F(x_n) − F(x_{n−j}));
 /// with one vessel this is Aitken's x_n + g_n/(1 − ratio): the distance left is not the difference of two
 /// beats but that divided by 1 − ratio. Source: Anderson 1965; Walker, Ni 2011. Only beats that differ in
-/// more than noise enter (singular values below 1 % of the largest are left out), and an estimate that is not
+/// more than noise enter (singular values below 1 % of the largest are left out); what of g_n they do not
+/// explain may belong to a slow vessel and adds ten times itself to the distance. An estimate that is not
 /// positive, further than 50 differences away or more than half of a pressure off is not used: then the
 /// distance is 50 differences. `beats` must not be empty; `volumes` of their states are volumes.
 CycleEstimate estimate_limit_cycle(const std::vector<CycleBeat>& beats, int volumes);
