@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <sstream>
 
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/mesh/surface.hpp>
@@ -13,6 +14,7 @@
 #ifdef CARDIAC_WITH_CGAL
 #include <polyaffine/meshing/nearest_triangles.hpp>
 #include <polyaffine/meshing/polyhedral_domain.hpp>
+#include <polyaffine/meshing/thickness.hpp>
 #endif
 
 namespace cardiac::app {
@@ -45,6 +47,17 @@ void carry_labels(const polyaffine::MeshData& surface, const std::string& wanted
   filled.notes.push_back("labels \"" + name + "\" of the surface carried over");
 }
 
+// What a note says of a wall that needs shorter edges somewhere; empty where it does not.
+std::string thin_part(const polyaffine::MeshData& surface, double edge_mm) {
+  const polyaffine::ThinPlace thin = polyaffine::thinnest_place(surface.points, surface.triangles);
+  if (thin.thickness_mm > edge_mm) return "";
+  std::ostringstream text;
+  text.precision(3);
+  text << ", shorter where the wall is thin (" << thin.thickness_mm << " mm near (" << thin.place.x() << ", "
+       << thin.place.y() << ", " << thin.place.z() << ") mm)";
+  return text.str();
+}
+
 }  // namespace
 #endif
 
@@ -64,7 +77,7 @@ HeartMesh fill_surface(const std::filesystem::path& file, [[maybe_unused]] const
   filled.notes = data.notes;
   filled.notes.push_back("closed surface of " + std::to_string(data.triangles.cols()) +
                          " triangles filled with tetrahedra of edges of about " + std::to_string(edge) +
-                         " mm");
+                         " mm" + thin_part(data, edge));
   try {
     const polyaffine::TetMesh mesh =
         polyaffine::mesh_polyhedral_domain(data.points, data.triangles, polyaffine::sizes_for_edge(edge));
@@ -73,6 +86,9 @@ HeartMesh fill_surface(const std::filesystem::path& file, [[maybe_unused]] const
     carry_labels(data, options.label_array, mesh, filled);
   } catch (const InputError& error) {
     throw InputError(file.string() + ": " + error.what());
+  } catch (const polyaffine::ComputationError& error) {
+    throw polyaffine::ComputationError(
+        file.string() + ": the surface is sound, but could not be filled: " + error.what() + " (--size)");
   }
   HeartMeshOptions in_mm = options;
   in_mm.mm_per_unit = 1;
