@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 
+#include <cardiac/anatomy/orientation.hpp>
 #include <cardiac/fibres/file_fibres.hpp>
 #include <cardiac/protocol/names.hpp>
 #include <polyaffine/core/error.hpp>
@@ -62,10 +63,13 @@ HeartMesh load_heart(const Protocol& protocol, std::vector<std::string>& warning
   return heart;
 }
 
-Anatomy anatomy_of(const HeartMesh& heart, const Protocol& protocol) {
+Anatomy anatomy_of(const HeartMesh& heart, const Protocol& protocol, std::vector<std::string>& warnings) {
   if (protocol.mesh.shape) return build_anatomy(heart.file.mesh, protocol);
   try {
-    return build_anatomy(heart.file.mesh, protocol);
+    Anatomy out = build_anatomy(heart.file.mesh, protocol);
+    for (const std::string& text : orientation_warnings(out.mesh, out.labels, *out.coordinates))
+      warnings.push_back(mesh_path(protocol).string() + ": " + text);
+    return out;
   } catch (const polyaffine::InputError& error) {
     throw polyaffine::InputError(mesh_path(protocol).string() + ": " + error.what());
   }
@@ -74,7 +78,7 @@ Anatomy anatomy_of(const HeartMesh& heart, const Protocol& protocol) {
 namespace {
 
 Anatomy with_fibres(const HeartMesh& heart, const Protocol& protocol, std::vector<std::string>& warnings) {
-  Anatomy anatomy = anatomy_of(heart, protocol);
+  Anatomy anatomy = anatomy_of(heart, protocol, warnings);
   if (!protocol.fibres) return anatomy;
   if (protocol.fibres->source == protocol::FibreSource::file) {
     const auto fibres = std::make_shared<const FileFibres>(heart.file, mesh_path(protocol).string());

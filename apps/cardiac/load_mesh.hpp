@@ -16,9 +16,9 @@ namespace cardiac::app {
 HeartMesh load_heart(const Protocol& protocol, std::vector<std::string>& warnings,
                      const WallSizeRule& size = {});
 
-/// The anatomy on a heart that was loaded for the protocol. Throws InputError as build_anatomy, naming the
-/// mesh file.
-Anatomy anatomy_of(const HeartMesh& heart, const Protocol& protocol);
+/// The anatomy on a heart that was loaded for the protocol; what was assumed about how a mesh file lies is
+/// added to the warnings. Throws InputError as build_anatomy, naming the mesh file.
+Anatomy anatomy_of(const HeartMesh& heart, const Protocol& protocol, std::vector<std::string>& warnings);
 
 /// Both, with the fibres of the mesh file where the protocol asks for them; those that a protocol with fibres
 /// does not use are a warning. Throws InputError as FileFibres.

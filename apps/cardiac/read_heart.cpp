@@ -75,20 +75,6 @@ HeartMesh read_separate(MeshData volume, const SurfaceFiles& surfaces, HeartMesh
 
 }  // namespace
 
-double mm_per_unit(protocol::LengthUnit unit) {
-  switch (unit) {
-    case protocol::LengthUnit::mm:
-      return 1;
-    case protocol::LengthUnit::cm:
-      return 10;
-    case protocol::LengthUnit::m:
-      return 1000;
-    case protocol::LengthUnit::um:
-      break;
-  }
-  return 1e-3;
-}
-
 protocol::LengthUnit length_unit(const std::string& word) {
   const auto names = protocol::names_of(protocol::LengthUnit{});
   const auto found = std::ranges::find(names, word);

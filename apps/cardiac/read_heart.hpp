@@ -9,9 +9,6 @@
 
 namespace cardiac::app {
 
-/// 1 for mm, 10 for cm, 1000 for m, 0.001 for µm.
-double mm_per_unit(protocol::LengthUnit unit);
-
 /// The unit behind a word of --length-unit. Throws InputError for another word.
 protocol::LengthUnit length_unit(const std::string& word);
 

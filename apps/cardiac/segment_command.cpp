@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <cardiac/anatomy/control_nodes.hpp>
+#include <cardiac/anatomy/orientation.hpp>
 #include <cardiac/anatomy/right_ventricle.hpp>
 #include <cardiac/core/units.hpp>
 #include <cardiac/fibres/fibre_difference.hpp>
@@ -44,7 +45,7 @@ struct SegmentOptions {
   std::string scheme, length_unit;
   LabelOptions labels;
   FibreArrays arrays;
-  std::vector<double> anterior{0, 1, 0}, long_axis;
+  std::vector<double> anterior, long_axis, septum_point, rv_insertion_point, mitral_point;
   HelixAngles angles;
   bool force = false;
 };
@@ -52,6 +53,15 @@ struct SegmentOptions {
 std::optional<protocol::Labels> given_labels(const std::vector<std::string>& words) {
   if (words.empty()) return std::nullopt;
   return surface_labels(words);
+}
+
+/// The three numbers of an option, where it was given.
+std::optional<protocol::Vector3> point(const char* option, const std::vector<double>& v) {
+  if (v.empty()) return std::nullopt;
+  const Eigen::Map<const polyaffine::Vec3> x(v.data());
+  if (!x.allFinite())
+    throw InputError(std::string(option) + ": found a number that is none, expected a point of the mesh");
+  return protocol::Vector3{x.x(), x.y(), x.z()};
 }
 
 protocol::Vector3 direction(const char* option, const std::vector<double>& v) {
@@ -85,7 +95,10 @@ Protocol as_protocol(const SegmentOptions& o) {
   protocol.mesh.base_label = given_labels(o.labels.base);
   protocol.mesh.rv_endo_label = given_labels(o.labels.rv_endo);
   protocol.anatomy.scheme = scheme(o.scheme);
-  protocol.anatomy.anterior_direction = direction("--anterior", o.anterior);
+  if (!o.anterior.empty()) protocol.anatomy.anterior_direction = direction("--anterior", o.anterior);
+  protocol.anatomy.septum_point = point("--septum-point", o.septum_point);
+  protocol.anatomy.rv_insertion_point = point("--rv-insertion-point", o.rv_insertion_point);
+  protocol.anatomy.mitral_point = point("--mitral-point", o.mitral_point);
   auto& fibres = protocol.fibres.emplace();
   fibres.source = protocol::FibreSource::file;
   if (!o.arrays.fibre.empty()) fibres.fibre_array = o.arrays.fibre;
@@ -152,6 +165,10 @@ void write_fields(const SegmentOptions&, const Anatomy&, const std::vector<Contr
 }
 #endif
 
+void print_orientation(const Anatomy& anatomy) {
+  for (const std::string& note : orientation_notes(*anatomy.coordinates)) std::cout << note << '\n';
+}
+
 void print_segments(const Anatomy& anatomy, const std::vector<ControlNode>& nodes) {
   const int count = num_segments(*anatomy.coordinates);
   const auto volumes = segment_volumes(anatomy.mesh, anatomy.segment, count);
@@ -209,7 +226,7 @@ void segment(const SegmentOptions& o) {
         "expected degrees");
   std::vector<std::string> warnings;
   const HeartMesh heart = load_heart(protocol, warnings, {"--length-unit", o.force});
-  const Anatomy anatomy = anatomy_of(heart, protocol);
+  const Anatomy anatomy = anatomy_of(heart, protocol, warnings);
   print_warnings(warnings);
   const auto nodes =
       control_nodes(anatomy.mesh, *anatomy.coordinates, frame_layout(anatomy.mesh, *anatomy.coordinates));
@@ -219,6 +236,7 @@ void segment(const SegmentOptions& o) {
         compare_fibres(anatomy.mesh, *anatomy.coordinates, FileFibres(heart.file, o.mesh.string()), o.angles);
   write_fields(o, anatomy, nodes, given);
   print_segments(anatomy, nodes);
+  print_orientation(anatomy);
   if (anatomy.labels.rv_endo) print_septal(anatomy);
   if (given) print_comparison(anatomy, *given);
   std::cout << "written " << o.out.string() << " (lengths in mm)\n";
@@ -242,11 +260,27 @@ void add_segment_command(CLI::App& app) {
   command->add_option("--picture", o->picture, "also draw the segments from three sides, .svg");
   add_label_options(*command, o->labels);
   add_fibre_options(*command, o->arrays);
-  command->add_option("--anterior", o->anterior, "direction from the long axis to the anterior wall")
-      ->expected(3)
-      ->capture_default_str();
+  CLI::App* anterior = command->add_option_group("anterior", "Where anterior is without a right ventricle");
+  anterior
+      ->add_option("--anterior", o->anterior,
+                   "direction from the long axis to the anterior wall (default: +y, with a warning)")
+      ->expected(3);
+  anterior
+      ->add_option("--septum-point", o->septum_point,
+                   "point in the middle of the septum, in the unit of the mesh")
+      ->expected(3);
+  anterior
+      ->add_option("--rv-insertion-point", o->rv_insertion_point,
+                   "point of the anterior insertion of the right ventricle, in the unit of the mesh")
+      ->expected(3);
+  anterior->require_option(0, 1);
   command
-      ->add_option("--long-axis", o->long_axis, "direction from apex to base (default: normal of the base)")
+      ->add_option("--mitral-point", o->mitral_point,
+                   "point near the mitral opening, in the unit of the mesh (default: the largest opening)")
+      ->expected(3);
+  command
+      ->add_option("--long-axis", o->long_axis,
+                   "direction from apex to base (default: apex of the cavity to the base centre)")
       ->expected(3);
   const CLI::Range angle(-90.0, 90.0);
   command->add_option("--endo-angle", o->angles.endo_deg, "helix angle at the endocardium, deg")

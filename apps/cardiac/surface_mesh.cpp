@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <sstream>
 
 #include <cardiac/anatomy/check_surfaces.hpp>
 #include <cardiac/anatomy/triangle_labels.hpp>
@@ -17,6 +18,7 @@
 #ifdef CARDIAC_WITH_CGAL
 #include <polyaffine/meshing/nearest_triangles.hpp>
 #include <polyaffine/meshing/polyhedral_domain.hpp>
+#include <polyaffine/meshing/thickness.hpp>
 #endif
 
 namespace cardiac::app {
@@ -94,6 +96,17 @@ void carry_labels(const polyaffine::MeshData& surface, const TriangleLabels& lab
   filled.notes.push_back("labels \"" + labels.array + "\" of the surface carried over");
 }
 
+// What a note says of a wall that needs shorter edges somewhere; empty where it does not.
+std::string thin_part(const polyaffine::MeshData& surface, double edge_mm) {
+  const polyaffine::ThinPlace thin = polyaffine::thinnest_place(surface.points, surface.triangles);
+  if (thin.thickness_mm > edge_mm) return "";
+  std::ostringstream text;
+  text.precision(3);
+  text << ", shorter where the wall is thin (" << thin.thickness_mm << " mm near (" << thin.place.x() << ", "
+       << thin.place.y() << ", " << thin.place.z() << ") mm)";
+  return text.str();
+}
+
 }  // namespace
 #endif
 
@@ -115,7 +128,7 @@ HeartMesh fill_surface([[maybe_unused]] polyaffine::MeshData data,
   filled.notes.insert(filled.notes.end(), labels.notes.begin(), labels.notes.end());
   filled.notes.push_back("closed surface of " + std::to_string(data.triangles.cols()) +
                          " triangles filled with tetrahedra of edges of about " + std::to_string(edge) +
-                         " mm");
+                         " mm" + thin_part(data, edge));
   try {
     const polyaffine::TetMesh mesh =
         polyaffine::mesh_polyhedral_domain(data.points, data.triangles, polyaffine::sizes_for_edge(edge));
@@ -124,6 +137,9 @@ HeartMesh fill_surface([[maybe_unused]] polyaffine::MeshData data,
     carry_labels(data, labels, mesh, filled);
   } catch (const InputError& error) {
     throw InputError(data.source.string() + ": " + error.what());
+  } catch (const polyaffine::ComputationError& error) {
+    throw polyaffine::ComputationError(
+        data.source.string() + ": the surface is sound, but could not be filled: " + error.what() + " (--size)");
   }
   HeartMeshOptions in_mm = options;
   in_mm.mm_per_unit = 1;

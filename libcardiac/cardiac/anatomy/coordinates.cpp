@@ -58,37 +58,10 @@ std::string text(const Vec3& v) {
 // Of the mean depth gradient of the left wall: what the even depth and the arc length get where the wall is
 // not the left one.
 constexpr double kOffWall = 0.1;
-// Length of the mean normal of a base from which it counts as flat.
-constexpr double kFlat = 0.999;
-
-// The one open edge of the endocardium, which must run along the base.
-std::vector<int> cavity_rim(const polyaffine::TetMesh& mesh, const SurfaceLabels& labels) {
-  const auto loops = polyaffine::rim_loops(mesh.surface({labels.endo}));
-  if (loops.size() != 1)
-    throw InputError("open cavity: found " + std::to_string(loops.size()) +
-                     " rims of the endocardium, expected one, at the base");
-  const std::vector<int> base = mesh.surface_points({labels.base});
-  for (const int p : loops.front())
-    if (!std::binary_search(base.begin(), base.end(), p))
-      throw InputError("open cavity: found the rim of the endocardium off the base at " +
-                       text(mesh.points().col(p)) +
-                       " mm, expected the endocardium to reach the base all round");
-  return loops.front();
-}
-
-// The mean normal of a surface: of unit length where it is flat.
-Vec3 mean_normal(const polyaffine::TetMesh& mesh, int label) {
-  Vec3 sum = Vec3::Zero();
-  double area = 0;
-  const polyaffine::Triangles faces = mesh.surface({label});
-  for (Eigen::Index f = 0; f < faces.cols(); ++f) {
-    const Vec3 a = mesh.points().col(faces(0, f));
-    const Vec3 normal = (mesh.points().col(faces(1, f)) - a).cross(mesh.points().col(faces(2, f)) - a);
-    sum += normal;
-    area += normal.norm();
-  }
-  return sum / area;
-}
+// Of the length of the cavity: nearer to the long axis a point says nothing about directions across it.
+constexpr double kOnAxis = 0.05;
+// Rotational coordinate of the anterior insertion of the right ventricle: between segments 1 and 2.
+constexpr double kInsertion = polyaffine::kPi / 6;
 
 }  // namespace
 
@@ -98,7 +71,11 @@ VentricularCoordinates::VentricularCoordinates(const polyaffine::TetMesh& mesh, 
   require_label(mesh, labels.epi, "epi");
   require_label(mesh, labels.base, "base");
   if (labels.rv_endo) require_label(mesh, *labels.rv_endo, "rv_endo");
-  find_axis(mesh, labels, options);
+  long_axis_ = find_long_axis(mesh, labels, options.long_axis, options.mitral_point);
+  axis_ = long_axis_.direction;
+  base_centre_ = long_axis_.base_centre;
+  for (const int p : mesh.surface_points({labels.endo}))
+    cavity_length_ = std::max(cavity_length_, -axis_.dot(mesh.points().col(p) - base_centre_));
   space_ = std::make_shared<polyaffine::LagrangeBasis>(
       mesh, 2, options.midpoints ? *options.midpoints : polyaffine::smooth_midpoints(mesh));
   if (labels.rv_endo) right_ = std::make_shared<RightVentricularCoordinates>(mesh, labels, space_);
@@ -106,23 +83,29 @@ VentricularCoordinates::VentricularCoordinates(const polyaffine::TetMesh& mesh, 
   if (right_)
     find_insertions(mesh);
   else
-    orient(options.anterior);
+    orient_by(options);
   solve_apicobasal(mesh, labels);
   if (right_) right_->settle(mesh, labels, axis_, anterior_);
 }
 
-void VentricularCoordinates::find_axis(const polyaffine::TetMesh& mesh, const SurfaceLabels& labels,
-                                       const AnatomyOptions& options) {
-  cavity_rim(mesh, labels);
-  base_centre_ = rim_centre(mesh, labels.endo, labels.base);
-  const Vec3 normal = mean_normal(mesh, labels.base);
-  if (options.long_axis)
-    axis_ = options.long_axis->normalized();
-  else
-    axis_ =
-        normal.norm() > kFlat ? normal.normalized() : cavity_axis(mesh, labels.endo, base_centre_).direction;
-  for (const int p : mesh.surface_points({labels.endo}))
-    cavity_length_ = std::max(cavity_length_, -axis_.dot(mesh.points().col(p) - base_centre_));
+void VentricularCoordinates::orient_by(const AnatomyOptions& options) {
+  const auto across = [&](const Vec3& point, const char* name) {
+    const Vec3 d = from_axis(point);
+    if (!(d.norm() > kOnAxis * cavity_length_))
+      throw InputError(std::string(name) + ": found " + text(point) + " mm, on the long axis " + text(axis_) +
+                       ", expected a point in the wall");
+    return Vec3(d.normalized());
+  };
+  if (options.septum_point) {
+    orient(axis_.cross(across(*options.septum_point, "septum point (anatomy.septum_point, --septum-point)")));
+  } else if (options.rv_insertion_point) {
+    const Vec3 d = across(*options.rv_insertion_point,
+                          "insertion point (anatomy.rv_insertion_point, --rv-insertion-point)");
+    orient(std::cos(kInsertion) * d + std::sin(kInsertion) * axis_.cross(d));
+  } else {
+    orient(options.anterior.value_or(Vec3::UnitY()));
+    anterior_assumed_ = !options.anterior;
+  }
 }
 
 void VentricularCoordinates::orient(const Vec3& anterior) {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include <cardiac/anatomy/long_axis.hpp>
 #include <polyaffine/core/monotone_cubic.hpp>
 #include <polyaffine/geometry/polynomial_field.hpp>
 #include <polyaffine/kinematics/lagrange.hpp>
@@ -20,8 +21,12 @@ struct SurfaceLabels {
 };
 
 struct AnatomyOptions {
-  std::optional<polyaffine::Vec3> long_axis;  ///< apex to base; absent: the mean outward normal of the base
-  polyaffine::Vec3 anterior = {0, 1, 0};  ///< from the axis to the anterior wall; a right ventricle tells it
+  std::optional<polyaffine::Vec3> long_axis{};     ///< apex to base; absent: find_long_axis
+  std::optional<polyaffine::Vec3> mitral_point{};  ///< mm, near the mitral of several openings
+  /// What tells where anterior is without a right ventricle, the first that is there: a point of the middle
+  /// of the septum (ψ = 90°) or of the anterior insertion of the right ventricle (ψ = 30°, the border of
+  /// segments 1 and 2), mm; the direction from the axis to the anterior wall. All absent: +y is assumed.
+  std::optional<polyaffine::Vec3> septum_point{}, rv_insertion_point{}, anterior{};
   std::optional<polyaffine::EdgeMidpoints> midpoints{};  ///< of boundary edges; absent: smooth_midpoints
 };
 
@@ -59,9 +64,8 @@ struct CoordinateSample {
 ///   base). Q = [e_l e_c e_r] is orthonormal at every point.
 class VentricularCoordinates {
  public:
-  /// Throws InputError when a label is missing, an endocardium has no rim or more than one (left), or one
-  /// that leaves the base, the anterior direction is parallel to the long axis, or there is no septum between
-  /// the endocardia.
+  /// Throws InputError when a label is missing, an endocardium has no rim or one that leaves the base, the
+  /// anterior direction is parallel to the long axis, or there is no septum between the endocardia.
   VentricularCoordinates(const polyaffine::TetMesh& mesh, const SurfaceLabels& labels,
                          const AnatomyOptions& options);
 
@@ -84,6 +88,9 @@ class VentricularCoordinates {
   /// Null without a right ventricle.
   const RightVentricularCoordinates* right() const { return right_.get(); }
 
+  const LongAxis& long_axis() const { return long_axis_; }
+  /// Nothing said where anterior is: it was taken as +y.
+  bool anterior_assumed() const { return anterior_assumed_; }
   const polyaffine::Vec3& axis() const { return axis_; }
   const polyaffine::Vec3& anterior() const { return anterior_; }  ///< unit, across the axis
   const polyaffine::Vec3& base_centre() const { return base_centre_; }
@@ -98,7 +105,7 @@ class VentricularCoordinates {
   polyaffine::Matrix axes() const;
 
  private:
-  void find_axis(const polyaffine::TetMesh& mesh, const SurfaceLabels& labels, const AnatomyOptions& options);
+  void orient_by(const AnatomyOptions& options);
   void orient(const polyaffine::Vec3& anterior);
   void find_insertions(const polyaffine::TetMesh& mesh);
   void solve_transmural(const polyaffine::TetMesh& mesh, const SurfaceLabels& labels);
@@ -106,7 +113,9 @@ class VentricularCoordinates {
   polyaffine::Vec3 from_axis(const polyaffine::Vec3& X) const;  ///< perpendicular from the long axis, mm
 
   std::shared_ptr<const polyaffine::LagrangeBasis> space_;
+  LongAxis long_axis_;
   polyaffine::Vec3 axis_, base_centre_, anterior_, septal_;
+  bool anterior_assumed_ = false;
   double cavity_length_ = 0, arc_length_ = 0;
   double least_steepness_ = 0;  // of the depth in the coefficients, 1/mm; 0 without a right ventricle
   std::optional<polyaffine::MonotoneCubic> stretch_;  // of the plain angle, three turns of it

@@ -75,8 +75,6 @@ std::vector<int> canonical(const TetMesh& mesh, const TriangleLabels& given, boo
   return out;
 }
 
-}
-
 void warn_of_swapped_ventricles(const TetMesh& mesh, Strings& warnings) {
   if (mesh.surface({kRvEndocardium}).cols() == 0) return;
   const auto roundness = [&](int label) {

@@ -45,8 +45,15 @@ Anatomy build_anatomy(polyaffine::TetMesh mesh, const Protocol& protocol, const 
   out.labels.rv_endo = right_label(out.mesh);
   check_scheme(out.labels.rv_endo.has_value(), protocol.anatomy.scheme);
   AnatomyOptions options;
-  if (protocol.anatomy.long_axis) options.long_axis = Vec3(protocol.anatomy.long_axis->data());
-  options.anterior = Vec3(protocol.anatomy.anterior_direction.data());
+  const double mm = protocol.mesh.length_unit ? mm_per_unit(*protocol.mesh.length_unit) : 1;
+  const auto vector = [](const std::optional<protocol::Vector3>& v, double factor) {
+    return v ? std::optional(Vec3(factor * Vec3(v->data()))) : std::nullopt;
+  };
+  options.long_axis = vector(protocol.anatomy.long_axis, 1);
+  options.anterior = vector(protocol.anatomy.anterior_direction, 1);
+  options.septum_point = vector(protocol.anatomy.septum_point, mm);
+  options.rv_insertion_point = vector(protocol.anatomy.rv_insertion_point, mm);
+  options.mitral_point = vector(protocol.anatomy.mitral_point, mm);
   options.midpoints = exact.midpoints;
   out.fibres = exact.fibres;
   out.coordinates = std::make_shared<VentricularCoordinates>(out.mesh, out.labels, options);

@@ -56,11 +56,19 @@ double norm(const Vector3& v) {
 }
 
 void check_anatomy(const Anatomy& anatomy, const Place& place) {
-  const Vector3& a = anatomy.anterior_direction;
+  const int ways = static_cast<int>(anatomy.anterior_direction.has_value()) +
+                   static_cast<int>(anatomy.septum_point.has_value()) +
+                   static_cast<int>(anatomy.rv_insertion_point.has_value());
+  if (ways > 1)
+    fail(place, anatomy.septum_point ? "anatomy.septum_point" : "anatomy.rv_insertion_point",
+         "found beside another key that says where anterior is; expected one of anterior_direction, "
+         "septum_point and rv_insertion_point");
+  const Vector3 a = anatomy.anterior_direction.value_or(Vector3{0, 1, 0});
   if (norm(a) == 0) fail(place, "anatomy.anterior_direction", "found a vector of length 0");
   if (!anatomy.long_axis) return;
   const Vector3& b = *anatomy.long_axis;
   if (norm(b) == 0) fail(place, "anatomy.long_axis", "found a vector of length 0");
+  if (!anatomy.anterior_direction && ways > 0) return;
   const Vector3 cross = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
   const double sine_of_one_degree = 0.01745;
   if (norm(cross) < sine_of_one_degree * norm(a) * norm(b)) {

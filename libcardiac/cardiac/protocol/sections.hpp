@@ -16,6 +16,11 @@ using Labels = std::vector<std::variant<int, std::string>>;  ///< numbers or nam
 
 enum class Shape { human_lv, land_ellipsoid, human_biventricle };
 enum class LengthUnit { mm, cm, m, um };
+/// Length of a unit, mm.
+constexpr double mm_per_unit(LengthUnit unit) {
+  constexpr std::array<double, 4> kLength{1, 10, 1000, 1e-3};
+  return kLength.at(static_cast<std::size_t>(unit));
+}
 struct Mesh {
   std::optional<std::string> file;  ///< either file (with its length_unit) or shape
   std::optional<Shape> shape;
@@ -28,8 +33,9 @@ struct Mesh {
 enum class Scheme { aha17, aha29 };
 struct Anatomy {
   std::optional<Scheme> scheme;      ///< absent: by the mesh; the parser sets it for a shape
-  std::optional<Vector3> long_axis;  ///< apex to base; absent: normal of the base
-  Vector3 anterior_direction = {0, 1, 0};
+  std::optional<Vector3> long_axis;           ///< apex to base; absent: found on the mesh
+  std::optional<Vector3> anterior_direction;  ///< absent: by a point, else +y
+  std::optional<Vector3> septum_point, rv_insertion_point, mitral_point;  ///< in the unit of the mesh
 };
 
 enum class Method { polyaffine, fem };

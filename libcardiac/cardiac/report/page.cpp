@@ -198,6 +198,7 @@ std::string run_section(const BeatResult& r, const RunInfo& info) {
     rows += "<tr>" + table_cell(name, "left") + table_cell(value, "left") + "</tr>\n";
   };
   row("Method", method_name(r));
+  row("Shape of the mesh", "taken as free of stress (unloaded)");
   row("Mesh", count_text(r.mesh_vertices) + " vertices, " + count_text(r.mesh_tets) + " tetrahedra");
   row("Unknowns", count_text(r.dofs));
   if (r.control_nodes > 0) row("Control nodes", count_text(r.control_nodes));

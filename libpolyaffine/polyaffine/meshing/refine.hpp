@@ -60,14 +60,35 @@ class QuietCgal {
   CGAL::Failure_function previous_;
 };
 
-/// Delaunay refinement, ODT smoothing, perturbation.
+/// A length times a factor of the place, in the form in which CGAL asks for sizes.
+struct SizeField {
+  using FT = Kernel::FT;
+  using Point_3 = Kernel::Point_3;
+  double length_mm;
+  const std::function<double(const Point_3&)>* factor;
+
+  template <class Index>
+  FT operator()(const Point_3& x, int /*dimension*/, const Index& /*index*/) const {
+    return length_mm * (*factor)(x);
+  }
+};
+
+/// Delaunay refinement, ODT smoothing, perturbation. `factor` (null: 1) scales all sizes with the place.
 template <class Domain>
-Complex<Domain> refine(const Domain& domain, const MeshSizes& sizes, int smoothing_steps) {
+Complex<Domain> refine(const Domain& domain, const MeshSizes& sizes, int smoothing_steps,
+                       const std::function<double(const Kernel::Point_3&)>* factor = nullptr) {
   namespace params = CGAL::parameters;
-  const CGAL::Mesh_criteria_3<Triangulation<Domain>> criteria(
-      params::edge_size = sizes.edge_mm, params::facet_angle = 25, params::facet_size = sizes.facet_mm,
-      params::facet_distance = sizes.facet_distance_mm, params::cell_radius_edge_ratio = 2,
-      params::cell_size = sizes.cell_mm);
+  using Criteria = CGAL::Mesh_criteria_3<Triangulation<Domain>>;
+  const auto field = [&](double length_mm) { return SizeField{length_mm, factor}; };
+  const Criteria criteria =
+      factor == nullptr
+          ? Criteria(params::edge_size = sizes.edge_mm, params::facet_angle = 25,
+                     params::facet_size = sizes.facet_mm, params::facet_distance = sizes.facet_distance_mm,
+                     params::cell_radius_edge_ratio = 2, params::cell_size = sizes.cell_mm)
+          : Criteria(params::edge_size = field(sizes.edge_mm), params::facet_angle = 25,
+                     params::facet_size = field(sizes.facet_mm),
+                     params::facet_distance = field(sizes.facet_distance_mm),
+                     params::cell_radius_edge_ratio = 2, params::cell_size = field(sizes.cell_mm));
   auto complex =
       CGAL::make_mesh_3<Complex<Domain>>(domain, criteria, params::no_perturb(), params::no_exude());
   if (smoothing_steps > 0)

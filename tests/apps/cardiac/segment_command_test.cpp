@@ -156,6 +156,8 @@ TEST_F(SegmentCommand, WrongInputIsStatusTwoAndTouchesNothing) {
       {sound + " --anterior 0 0 0", "--anterior: found"},
       {sound + " --anterior 1 0", "--anterior"},
       {sound + " --long-axis nan 0 1", "--long-axis: found"},
+      {sound + " --long-axis 0 0 -1", "expected a direction from apex to base"},
+      {sound + " --septum-point 0 0 -18", "on the long axis"},
       {sound + " --endo-angle 120", "--endo-angle"},
       {sound + " --epi-angle nan", "--epi-angle"}};
   for (const auto& [options, message] : cases) {

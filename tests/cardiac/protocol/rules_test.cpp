@@ -21,6 +21,8 @@ TEST(Rules, MeshIsEitherFileOrShape) {
 }
 
 TEST(Rules, DirectionsMustSpanAPlane) {
+  EXPECT_THAT(refusal(kPassive, {"anatomy.anterior_direction=[0, 1, 0]", "anatomy.septum_point=[1, 0, 0]"}),
+              HasSubstr("expected one of anterior_direction, septum_point and rv_insertion_point"));
   EXPECT_THAT(refusal(kPassive, {"anatomy.anterior_direction=[0, 0, 0]"}), HasSubstr("length 0"));
   EXPECT_THAT(refusal(kPassive, {"anatomy.long_axis=[0, 0, 0]"}), HasSubstr("length 0"));
   EXPECT_THAT(refusal(kPassive, {"anatomy.long_axis=[0, -2, 0.01]"}), HasSubstr("parallel"));
