@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 #include <utility>
 
@@ -28,8 +29,9 @@ std::string check_wall_size(double volume_mm3, double mm_per_unit, const WallSiz
   text << rule.unit_key << ": the wall has " << mL << " mL in ";
   for (const auto& [unit, mm] : kUnits)
     if (std::abs(mm / mm_per_unit - 1) < 1e-9) text << unit;
-  text << ", expected " << kLeastWall_mL << " to " << kMostWall_mL
+  text << std::setprecision(6) << ", expected " << kLeastWall_mL << " to " << kMostWall_mL
        << " mL, what hearts from a mouse's to a horse's have;";
+  text.precision(4);
   const char* between = " it would be ";
   for (const auto& [unit, mm] : kUnits) {
     const double other = mL * std::pow(mm / mm_per_unit, 3);

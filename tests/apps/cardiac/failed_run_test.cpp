@@ -84,10 +84,16 @@ TEST(FailedRun, CrushedWallIsWarnedOf) {
   const TemporaryFolder folder;
   const fs::path out = folder.path / "out";
   const auto run = run_program("run " + land(folder, kBeat) +
-                               " --set contraction.contractility_kPa=1000 --out " + out.string());
+                               " --set contraction.contractility_kPa=400 --out " + out.string());
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.err, HasSubstr("cardiac: warning: the wall was compressed to "));
   EXPECT_THAT(whole_file(out / "summary.json"), HasSubstr("the wall was compressed to "));
+  // Below a tenth of its volume it is no result.
+  const auto crushed = run_program("run " + land(folder, kBeat) +
+                                   " --set contraction.contractility_kPa=1000 --out " + out.string());
+  EXPECT_THAT(std::string(check_failed(crushed, out).at("stop_reason")),
+              HasSubstr("absurd result: the wall"));
+  EXPECT_THAT(crushed.err, HasSubstr("cardiac: warning: the wall was compressed to "));
 }
 
 TEST(FailedRun, FillingThatDoesNotSucceed) {
