@@ -138,8 +138,9 @@ HeartMesh fill_surface([[maybe_unused]] polyaffine::MeshData data,
   } catch (const InputError& error) {
     throw InputError(data.source.string() + ": " + error.what());
   } catch (const polyaffine::ComputationError& error) {
-    throw polyaffine::ComputationError(
-        data.source.string() + ": the surface is sound, but could not be filled: " + error.what() + " (--size)");
+    throw polyaffine::ComputationError(data.source.string() +
+                                       ": the surface is sound, but could not be filled: " + error.what() +
+                                       " (--size)");
   }
   HeartMeshOptions in_mm = options;
   in_mm.mm_per_unit = 1;

@@ -23,13 +23,14 @@ Table mesh_table() {
   TableBuilder table("mesh", "Geometry of the ventricle: a mesh file or an idealised shape.",
                      &Protocol::mesh);
   table
-      .key("file", &Mesh::file,
-           {.meaning =
-                "tetrahedral mesh (.vtu, .vtk, Gmsh .msh, openCARP .pts), path relative to the protocol "
-                "file (in --set: to the current folder); its shape is taken as free of stress (unloaded): one "
-                "imaged under pressure is filled once more, and its volumes come out too large",
-            .absent = "an idealised shape is meshed",
-            .path = true})
+      .key(
+          "file", &Mesh::file,
+          {.meaning =
+               "tetrahedral mesh (.vtu, .vtk, Gmsh .msh, openCARP .pts), path relative to the protocol "
+               "file (in --set: to the current folder); its shape is taken as free of stress (unloaded): one "
+               "imaged under pressure is filled once more, and its volumes come out too large",
+           .absent = "an idealised shape is meshed",
+           .path = true})
       .key("length_unit", &Mesh::length_unit,
            {.meaning = "length unit of the coordinates in the mesh file",
             .absent = "required with file, never guessed",
@@ -77,17 +78,19 @@ Table anatomy_table() {
                       "endocardium), else aha17"})
       .key("long_axis", &Anatomy::long_axis,
            {.meaning = "direction from apex to base in mesh coordinates, of any length",
-            .absent = "from the apex of the cavity to the centre of the base (of the mitral opening), found on "
-                      "the mesh; the normal of a flat base where both agree within 3°"})
-      .key("anterior_direction", &Anatomy::anterior_direction,
-           {.meaning =
-                "direction from the long axis to the anterior wall in mesh coordinates, of any length; "
-                "its part across the long axis counts, so it must not be parallel to it; a right ventricle "
-                "tells where anterior is, and this is not used",
-            .source = "convention: the idealised shapes have their anterior wall at +y",
-            .absent = "told by septum_point or rv_insertion_point; else +y, with a warning unless the wall is "
-                      "the same all round the z axis",
-            .also = {one_ventricle()}})
+            .absent =
+                "from the apex of the cavity to the centre of the base (of the mitral opening), found on "
+                "the mesh; the normal of a flat base where both agree within 3°"})
+      .key(
+          "anterior_direction", &Anatomy::anterior_direction,
+          {.meaning =
+               "direction from the long axis to the anterior wall in mesh coordinates, of any length; "
+               "its part across the long axis counts, so it must not be parallel to it; a right ventricle "
+               "tells where anterior is, and this is not used",
+           .source = "convention: the idealised shapes have their anterior wall at +y",
+           .absent = "told by septum_point or rv_insertion_point; else +y, with a warning unless the wall is "
+                     "the same all round the z axis",
+           .also = {one_ventricle()}})
       .key("septum_point", &Anatomy::septum_point,
            {.meaning = "a point in the middle of the septum (the border of segments 2 and 3), in mesh "
                        "coordinates and unit; instead of anterior_direction",
@@ -99,10 +102,11 @@ Table anatomy_table() {
             .source = "AHA, Cerqueira 2002",
             .absent = "anterior_direction tells",
             .also = {one_ventricle()}})
-      .key("mitral_point", &Anatomy::mitral_point,
-           {.meaning = "a point near the mitral opening, in mesh coordinates and unit: of several openings of "
-                       "the left cavity the nearest one is the mitral, to which the long axis runs",
-            .absent = "the largest opening is the mitral one"});
+      .key(
+          "mitral_point", &Anatomy::mitral_point,
+          {.meaning = "a point near the mitral opening, in mesh coordinates and unit: of several openings of "
+                      "the left cavity the nearest one is the mitral, to which the long axis runs",
+           .absent = "the largest opening is the mitral one"});
   return table.build();
 }
 

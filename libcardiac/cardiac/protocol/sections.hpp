@@ -32,7 +32,7 @@ struct Mesh {
 
 enum class Scheme { aha17, aha29 };
 struct Anatomy {
-  std::optional<Scheme> scheme;      ///< absent: by the mesh; the parser sets it for a shape
+  std::optional<Scheme> scheme;               ///< absent: by the mesh; the parser sets it for a shape
   std::optional<Vector3> long_axis;           ///< apex to base; absent: found on the mesh
   std::optional<Vector3> anterior_direction;  ///< absent: by a point, else +y
   std::optional<Vector3> septum_point, rv_insertion_point, mitral_point;  ///< in the unit of the mesh
