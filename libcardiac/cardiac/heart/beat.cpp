@@ -112,22 +112,38 @@ double stroke_volume(const std::vector<HeartState>& steps) {
   return high->volume_mm3 - low->volume_mm3;
 }
 
+// Beats that the slowest arteries need to come nearer by their whole distance, 1/(1 − e^(−T/RC)).
+double beats_of_arteries(const Protocol& protocol) {
+  const protocol::Circulation& c = *protocol.circulation;
+  const double RC_s =
+      std::max(c.peripheral_resistance_mmHg_s_per_mL * c.compliance_mL_per_mmHg,
+               c.pulmonary_peripheral_resistance_mmHg_s_per_mL * c.pulmonary_compliance_mL_per_mmHg);
+  return -1 / std::expm1(-60 / protocol.time.heart_rate_bpm / RC_s);
+}
+
+// Of the last beat from its limit; where no estimate could be used, no less than the arteries may need.
+double distance_percent(const HeartPath& path, int volumes, const Protocol& protocol) {
+  const CycleEstimate estimate = estimate_limit_cycle(path.cycle, volumes);
+  return estimate.distance_percent * (estimate.extrapolated ? 1 : beats_of_arteries(protocol));
+}
+
 // The limit cycle is reached when the last beat is near the one that would repeat itself, and the beat before
 // confirms it.
-bool closed(const HeartPath& path, int volumes, double tolerance_percent) {
+bool closed(const HeartPath& path, int volumes, const Protocol& protocol) {
+  const double tolerance_percent = protocol.time.limit_cycle_tolerance_percent;
   const auto& sv = path.stroke_volumes_mm3;
   return sv.size() > 1 &&
          std::abs(sv.back() - sv[sv.size() - 2]) <= tolerance_percent / 100 * std::abs(sv.back()) &&
-         estimate_limit_cycle(path.cycle, volumes).distance_percent <= tolerance_percent;
+         distance_percent(path, volumes, protocol) <= tolerance_percent;
 }
 
-std::string unclosed_warning(const HeartPath& path, int volumes, const protocol::Time& time) {
+std::string unclosed_warning(const HeartPath& path, int volumes, const Protocol& protocol) {
+  const protocol::Time& time = protocol.time;
   std::ostringstream out;
   out << "the pressure-volume loop did not close to " << time.limit_cycle_tolerance_percent
       << " % (time.limit_cycle_tolerance_percent) in " << path.beats << " beats: the last is ";
   if (path.cycle.size() > 1)
-    out << "about " << std::setprecision(2) << estimate_limit_cycle(path.cycle, volumes).distance_percent
-        << " % ";
+    out << "about " << std::setprecision(2) << distance_percent(path, volumes, protocol) << " % ";
   out << "from the one that would repeat itself; ";
   if (is_noise(path.cycle, volumes))
     out << "from beat to beat this is noise of the time integration and comes no nearer: lower "
@@ -264,7 +280,6 @@ Checkpoint checkpoint(const HeartPath& path, const BeatSystem& system, const Vec
 }  // namespace
 
 HeartPath run_beats(const Ventricle& ventricle, const Protocol& protocol, const RunControl& control) {
-  const double tolerance = protocol.time.limit_cycle_tolerance_percent;
   BeatSystem system(ventricle, circulation_model(ventricle.right_cavity != nullptr, *protocol.circulation));
   const int cavities = system.num_cavities();
   HeartPath path;
@@ -280,12 +295,12 @@ HeartPath run_beats(const Ventricle& ventricle, const Protocol& protocol, const 
     going_on = run_beat(system, protocol, *ventricle.contraction, control, y, rate, path);
     if (!going_on) break;
     ++path.beats;
-    is_closed = closed(path, cavities, tolerance);
+    is_closed = closed(path, cavities, protocol);
     path.completed = is_closed || path.beats == protocol.time.max_beats || is_noise(path.cycle, cavities);
     if (!path.completed) extrapolate(system, path.simulated_ms, path, y, rate);
   }
   path.cost = system.cost();
-  if (path.completed && !is_closed) path.warnings.push_back(unclosed_warning(path, cavities, protocol.time));
+  if (path.completed && !is_closed) path.warnings.push_back(unclosed_warning(path, cavities, protocol));
   return path;
 }
 

@@ -137,6 +137,12 @@ TEST(LimitCycle, ASlowWindkesselComesToOneCycleFromBothSides) {
   }
 }
 
+TEST(LimitCycle, ArteriesThatNeedThousandsOfBeatsAreNotTakenForClosed) {
+  const HeartRun run = healthy_with({"circulation.compliance_mL_per_mmHg=1e4", "time.max_beats=3"});
+  EXPECT_EQ(run.path.beats, 3);
+  EXPECT_THAT(run.path.warnings, ::testing::Contains(HasSubstr("did not close")));
+}
+
 TEST(LimitCycle, NoiseBelowATightToleranceIsNamed) {
   const HeartRun run = healthy_with(
       {"time.heart_rate_bpm=190", "time.limit_cycle_tolerance_percent=1e-7", "time.max_beats=30"});
