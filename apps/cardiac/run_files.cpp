@@ -1,5 +1,6 @@
 #include "run_files.hpp"
 
+#include <cardiac/heart/key_states.hpp>
 #include <cardiac/heart/vertex_displacement.hpp>
 #include <cardiac/strain/tet_gauge.hpp>
 #include <polyaffine/core/error.hpp>
@@ -32,9 +33,8 @@ void write_mesh_series(const Ventricle& ventricle, const Protocol& protocol, con
   const Anatomy& anatomy = *ventricle.anatomy;
   const auto map = vertex_displacement(ventricle);
   const Eigen::Index tets = anatomy.mesh.num_tets();
-  const std::size_t ed = key_steps(path, protocol).ed;
-  const TetGauge gauge(anatomy.mesh, *anatomy.coordinates,
-                       anatomy.mesh.points() + map.apply(path.steps[ed].c));
+  const HeartState ed = key_states(path, protocol).ed;
+  const TetGauge gauge(anatomy.mesh, *anatomy.coordinates, anatomy.mesh.points() + map.apply(ed.c));
   Points fibres;
   if (protocol.fibres) fibres = tet_fibres(anatomy, *protocol.fibres);
   const std::vector<std::string> lcr{"longitudinal", "circumferential", "radial"};

@@ -28,7 +28,7 @@ Points positions(const testing::HeartRun& run, const Vector& c) {
 void expect_affine(const testing::HeartRun& run, std::size_t output) {
   const Anatomy& anatomy = *run.ventricle.anatomy;
   const Instant& instant = run.result.instants.at(output);
-  const Points y = positions(run, run.path.steps[run.key.ed].c);
+  const Points y = positions(run, run.key.ed.c);
   const Points x = positions(run, run.path.outputs.at(output).c);
   const auto errors =
       testing::rebuild_errors(anatomy.mesh, anatomy.segment, y, x, run.result.nodes, instant.frames);
@@ -42,7 +42,7 @@ void expect_affine(const testing::HeartRun& run, std::size_t output) {
 }
 
 std::size_t end_systolic_output(const testing::HeartRun& run) {
-  const double es = run.path.steps[run.key.es].time_ms;
+  const double es = run.key.es.time_ms;
   std::size_t best = 0;
   for (std::size_t k = 0; k < run.path.outputs.size(); ++k)
     if (std::abs(run.path.outputs[k].time_ms - es) < std::abs(run.path.outputs[best].time_ms - es)) best = k;
