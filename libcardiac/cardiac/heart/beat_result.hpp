@@ -153,7 +153,7 @@ struct BeatResult {
   std::vector<FrameFunction> frame_functions;  ///< empty unless output.frames asks for their unknowns
   std::vector<Instant> instants;               ///< the last beat, time counted from its start
   std::vector<VentricleSummary> ventricles;
-  CirculationTable circulation;              ///< the last beat; empty without one. Not read back from files
+  CirculationTable circulation;              ///< the last beat; empty without one
   GlobalStrain strain;                       ///< of the left ventricle at end systole
   std::optional<GlobalStrain> right_strain;  ///< of the right free wall at the same time
   double min_det_F = 1, max_det_F = 1;

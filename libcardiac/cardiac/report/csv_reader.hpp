@@ -16,6 +16,7 @@ class CsvTable {
   explicit CsvTable(const std::filesystem::path& file);
 
   size_t rows() const { return rows_.size(); }
+  const std::vector<std::string>& columns() const { return header_; }
   /// Index of a column, for the calls below.
   size_t column(const std::string& name) const;
   const std::string& text(size_t row, size_t column) const { return rows_[row].fields[column]; }

@@ -58,7 +58,7 @@ Bullseye activation_bullseye(const BeatResult& result, const ActivationSpan& spa
 std::vector<Figure> strain_bullseyes(const BeatResult& result, const std::vector<NamedRegion>& regions) {
   const auto [ed_ms, es_ms] = cardiac_times(result);
   const std::vector<SegmentPeaks> peaks = strain_peaks(result.instants, ed_ms, es_ms);
-  const bool beat = result.has_beat;
+  const bool beat = has_systole(result);
   const std::string note = beat ? "against end diastole" : "at the end, against the start";
   std::vector<Figure> list;
   const auto add = [&](const std::string& file, const std::string& title, const std::string& under,

@@ -82,11 +82,12 @@ std::string figure_sections(const BeatResult& r, const RunInfo& info, const std:
   std::string html;
   if (!wall_svg.empty())
     html += "<h2>The wall " +
-            std::string(r.has_beat ? "at end diastole and end systole" : "before and after") + "</h2>\n" +
+            std::string(has_systole(r) ? "at end diastole and end systole" : "before and after") + "</h2>\n" +
             figure_html({"wall.svg", wall_svg});
   const std::string when = r.has_beat ? "over the last beat" : "over the loading";
   return html + group("Pressure and volume " + when, "", "pair", courses) +
-         group("Segments of the left ventricle " + std::string(r.has_beat ? "at end systole" : "at the end"),
+         group("Segments of the left ventricle " +
+                   std::string(has_systole(r) ? "at end systole" : "at the end"),
                activation_sentence(r), "eyes", eyes) +
          group("Segments of the right ventricle", "The free wall laid out flat beside the septum.", "eyes",
                right) +
@@ -98,13 +99,13 @@ std::string figure_sections(const BeatResult& r, const RunInfo& info, const std:
          group("Strain " + when, "", "full", curves);
 }
 
-std::string segment_table_head(bool has_beat) {
-  const std::string span = has_beat ? "4" : "3", end = has_beat ? "ES" : "end";
+std::string segment_table_head(bool has_systole) {
+  const std::string span = has_systole ? "4" : "3", end = has_systole ? "ES" : "end";
   std::string names, columns;
   for (const char* strain : {"Longitudinal", "Circumferential", "Radial"}) {
     names += "<th colspan=\"" + span + "\" class=\"group\">" + strain + "</th>";
     columns += "<th class=\"group\">" + end + "<br>%</th><th>peak<br>%</th><th>at<br>ms</th>";
-    if (has_beat) columns += "<th>PSI<br>%</th>";
+    if (has_systole) columns += "<th>PSI<br>%</th>";
   }
   return "<thead><tr><th rowspan=\"2\">No.</th><th rowspan=\"2\" class=\"left\">Segment</th>"
          "<th rowspan=\"2\">Volume<br>mL</th>" +
@@ -136,22 +137,23 @@ std::string segment_table(const BeatResult& r, const RunInfo& info) {
     for (const StrainPeak& p : {peaks[i].longitudinal, peaks[i].circumferential, peaks[i].radial}) {
       rows += table_cell(display_text(100 * p.end_systolic, 1), "group") +
               table_cell(display_text(100 * p.value, 1)) + table_cell(display_text(p.time_ms, 0));
-      if (r.has_beat) rows += table_cell(display_text(p.post_systolic_index_percent, 0));
+      if (has_systole(r)) rows += table_cell(display_text(p.post_systolic_index_percent, 0));
     }
     rows += "</tr>\n";
   }
-  return "<h2>Table of the segments</h2>\n<div class=\"wide\"><table>" + segment_table_head(r.has_beat) +
+  return "<h2>Table of the segments</h2>\n<div class=\"wide\"><table>" + segment_table_head(has_systole(r)) +
          "<tbody>\n" + rows + "</tbody></table></div>\n<p class=\"small\">Lagrangian strain against " +
-         (r.has_beat ? "end diastole" : "the start") +
+         (has_systole(r) ? "end diastole" : "the start") +
          ", averaged over the segment in its local axes. Peak: strongest shortening (longitudinal, "
          "circumferential) or thickening (radial) over all times; a segment that only lengthens or thins has "
          "its strongest lengthening or thinning, with that sign." +
-         (r.has_beat ? " PSI: post-systolic index, 100 (peak − ES)/peak where the peak comes outside of "
-                       "systole, otherwise 0; left open where peak and ES differ in sign, or where a late "
-                       "peak follows less than " +
-                           display_text(100 * kLeastEndSystolicStrain, 0) +
-                           " % at ES: the quotient would compare unlike things."
-                     : "") +
+         (has_systole(r)
+              ? " PSI: post-systolic index, 100 (peak − ES)/peak where the peak comes outside of "
+                "systole, otherwise 0; left open where peak and ES differ in sign, or where a late "
+                "peak follows less than " +
+                    display_text(100 * kLeastEndSystolicStrain, 0) +
+                    " % at ES: the quotient would compare unlike things."
+              : "") +
          names + "</p>\n";
 }
 

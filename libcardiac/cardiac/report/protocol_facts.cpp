@@ -50,13 +50,16 @@ std::string anterior_sentence(const Json& protocol, bool right_ventricle) {
            "from "
            "its anterior insertion.";
   const Json given = value_at(protocol, "anatomy", "anterior_direction");
-  if (given.is_array() && given != Json::array({0.0, 1.0, 0.0}))
+  if (given.is_array())
     return "The anterior wall lies in the direction " + vector_text(given) +
            " of the mesh (anatomy.anterior_direction).";
-  return "The anterior wall is taken to lie in the direction (0, 1, 0) of the mesh, which is also the value "
-         "of "
-         "anatomy.anterior_direction when it is not given. If it lies elsewhere, every segment's number is "
-         "that of "
+  for (const char* key : {"septum_point", "rv_insertion_point"})
+    if (const Json point = value_at(protocol, "anatomy", key); point.is_array())
+      return std::string("Where the anterior wall lies is told by anatomy.") + key + " = " +
+             vector_text(point) + ".";
+  return "The anterior wall is taken to lie in the direction (0, 1, 0) of the mesh: the protocol does not "
+         "tell "
+         "where it is (anatomy.anterior_direction). If it lies elsewhere, every segment's number is that of "
          "another wall.";
 }
 
@@ -64,7 +67,9 @@ std::string axis_sentence(const Json& protocol) {
   const Json given = value_at(protocol, "anatomy", "long_axis");
   if (given.is_array())
     return "The long axis has the direction " + vector_text(given) + " of the mesh (anatomy.long_axis).";
-  return "The long axis runs from the apex to the centre of the base, both found on the mesh; longitudinal, "
+  return "The long axis runs from the apex of the cavity to the centre of the base or mitral opening, found "
+         "on "
+         "the mesh (where it is within 3° of the normal of a flat base, along that normal); longitudinal, "
          "circumferential and radial are told by it.";
 }
 

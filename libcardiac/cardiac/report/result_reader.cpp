@@ -113,6 +113,16 @@ void read_cavities(const fs::path& file, BeatResult& result) {
   }
 }
 
+void read_circulation(const fs::path& file, BeatResult& result) {
+  if (!fs::exists(file)) return;
+  const CsvTable table(file);
+  result.circulation.columns = table.columns();
+  for (size_t column = 0; column < table.columns().size(); ++column) {
+    std::vector<double>& values = result.circulation.values.emplace_back();
+    for (size_t row = 0; row < table.rows(); ++row) values.push_back(table.number(row, column));
+  }
+}
+
 }  // namespace
 
 StoredResult read_result(const fs::path& folder) {
@@ -125,6 +135,7 @@ StoredResult read_result(const fs::path& folder) {
   read_frames(folder / "affine.csv", stored.result);
   read_global(folder / "global_strain.csv", stored.result);
   read_cavities(folder / "cavity.csv", stored.result);
+  read_circulation(folder / "circulation.csv", stored.result);
   return stored;
 }
 

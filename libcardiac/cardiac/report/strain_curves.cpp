@@ -86,7 +86,7 @@ Axis strain_axis(const BeatResult& result, double SegmentStrain::*strain) {
 }
 
 void draw_marks(Svg& svg, const Plot& plot, const BeatResult& result, const CardiacTimes& times) {
-  if (!result.has_beat) return;
+  if (!has_systole(result)) return;
   for (const auto& [time, name] : {std::pair{times.ed_ms, "ED"}, std::pair{times.es_ms, "ES"}}) {
     if (time < plot.x.low || time > plot.x.high) continue;
     const double x = plot.at(time, plot.y.low).x;
@@ -173,8 +173,8 @@ std::string drawn(const Chamber& chamber, const BeatResult& result) {
   const double first = result.instants.empty() ? 0 : result.instants.front().time_ms;
   const double last = result.instants.empty() ? 1 : result.instants.back().time_ms;
   const CardiacTimes times = cardiac_times(result);
-  // Without a beat the curves are apart at the end of the loading: their numbers stand before it.
-  const double label_ms = result.has_beat ? times.es_ms : last - 0.14 * (last - first);
+  // Without a systole the curves are apart at the end of the loading: their numbers stand before it.
+  const double label_ms = has_systole(result) ? times.es_ms : last - 0.14 * (last - first);
   for (size_t row = 0; row < kStrains.size(); ++row) {
     const Axis axis = strain_axis(result, kStrains[row].strain);
     for (size_t column = 0; column < chamber.levels.size(); ++column) {

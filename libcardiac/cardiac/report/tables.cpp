@@ -207,12 +207,16 @@ std::string phase_name(Phase phase) {
 
 CardiacTimes cardiac_times(const BeatResult& result) {
   const auto lv = std::ranges::find(result.ventricles, "lv", &VentricleSummary::name);
-  if ((result.has_beat || result.has_contraction) && !result.ventricles.empty()) {
+  if (has_systole(result) && !result.ventricles.empty()) {
     const VentricleSummary& v = lv != result.ventricles.end() ? *lv : result.ventricles.front();
     if (std::isfinite(v.ed_time_ms) && std::isfinite(v.es_time_ms)) return {v.ed_time_ms, v.es_time_ms};
   }
   if (result.instants.empty()) return {};
   return {result.instants.front().time_ms, result.instants.back().time_ms};
+}
+
+bool has_systole(const BeatResult& result) {
+  return result.has_beat || result.has_contraction;
 }
 
 void write_tables(const BeatResult& result, const RunInfo& info, const std::filesystem::path& out) {

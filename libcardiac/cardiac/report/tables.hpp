@@ -55,6 +55,8 @@ struct CardiacTimes {
   double ed_ms = 0, es_ms = 0;
 };
 CardiacTimes cardiac_times(const BeatResult& result);
+/// Is there an end systole: a beat, or a contraction under prescribed loads.
+bool has_systole(const BeatResult& result);
 
 /// Writes strain.csv, strain_peaks.csv, affine.csv, control_nodes.csv, global_strain.csv, cavity.csv,
 /// summary.json, circulation.csv (of a beat) and, where the result has the unknowns of the frames, frames.csv

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <cardiac/report/axes.hpp>
+#include <cardiac/report/tables.hpp>
 
 namespace cardiac {
 namespace {
@@ -30,6 +31,28 @@ std::vector<Curve> curves_of(const BeatResult& result, double CavitySample::*val
       if (std::isfinite(s.time_ms) && std::isfinite(s.*value)) curve.samples.push_back({s.time_ms, s.*value});
   }
   return curves;
+}
+
+/// The pressure of the artery behind each ventricle, where the result has the circulation.
+void add_arteries(const CirculationTable& table, std::vector<Curve>& curves) {
+  const auto column = [&table](const std::string& name) -> const std::vector<double>* {
+    const auto found = std::ranges::find(table.columns, name);
+    return found == table.columns.end()
+               ? nullptr
+               : &table.values.at(static_cast<size_t>(found - table.columns.begin()));
+  };
+  const std::vector<double>* times = column("time_ms");
+  if (times == nullptr) return;
+  for (const auto& [name, look] :
+       {std::pair{"aorta_mmHg", Curve{"aorta", colour_of("lv"), "5 3", {}}},
+        std::pair{"pulmonary_artery_mmHg", Curve{"pulm. art.", colour_of("rv"), "5 3", {}}}}) {
+    const std::vector<double>* pressures = column(name);
+    if (pressures == nullptr) continue;
+    Curve& curve = curves.emplace_back(look);
+    for (size_t i = 0; i < std::min(times->size(), pressures->size()); ++i)
+      if (std::isfinite((*times)[i]) && std::isfinite((*pressures)[i]))
+        curve.samples.push_back({(*times)[i], (*pressures)[i]});
+  }
 }
 
 Axis value_axis(const std::vector<Curve>& curves) {
@@ -110,7 +133,8 @@ std::string time_curves_svg(const BeatResult& result) {
   const std::array panels{std::pair{"pressure (mmHg)", &CavitySample::pressure_mmHg},
                           std::pair{"volume (mL)", &CavitySample::volume_mL}};
   for (size_t i = 0; i < panels.size(); ++i) {
-    const std::vector<Curve> curves = curves_of(result, panels[i].second);
+    std::vector<Curve> curves = curves_of(result, panels[i].second);
+    if (i == 0) add_arteries(result.circulation, curves);
     const Plot plot{kLeft,
                     kTop + kPitch * static_cast<double>(i),
                     kPanel,
@@ -119,7 +143,7 @@ std::string time_curves_svg(const BeatResult& result) {
                     value_axis(curves)};
     plot.draw(svg, i + 1 == panels.size() ? "time (ms)" : "", panels[i].first, 13);
     draw_curves(svg, plot, curves);
-    if (result.has_beat) draw_marks(svg, plot, result, curves, i == 0);
+    if (has_systole(result)) draw_marks(svg, plot, result, curves, i == 0);
   }
   return svg.str();
 }

@@ -204,6 +204,26 @@ TEST(Figures, TimeCurvesMarkEndDiastoleAndEndSystole) {
   EXPECT_THAT(time_curves_svg(loading), Not(HasSubstr(">ES<")));
 }
 
+TEST(Figures, TimeCurvesShowTheArteriesOfTheCirculation) {
+  BeatResult r = test::synthetic_beat();
+  EXPECT_THAT(time_curves_svg(r), Not(HasSubstr(">aorta<")));
+  r.circulation = {{"time_ms", "aorta_mmHg", "aortic_valve_mL_per_s"},
+                   {{0, 400, 800}, {80, 110, NAN}, {0, 1, 2}}};
+  const std::string svg = time_curves_svg(r);
+  EXPECT_THAT(svg, HasSubstr(">aorta<"));
+  EXPECT_THAT(svg, Not(HasSubstr("nan")));
+  EXPECT_EQ(count(svg, "<polyline"), 3);
+}
+
+TEST(Figures, ContractionUnderPrescribedLoadsHasAnEndSystole) {
+  BeatResult r = test::synthetic_beat();
+  r.has_beat = false;
+  r.has_contraction = true;
+  EXPECT_EQ(count(strain_curves_svg(r), ">ES</text>"), 9);
+  EXPECT_THAT(time_curves_svg(r), HasSubstr(">ES<"));
+  EXPECT_THAT(files_of(r), Contains("bullseye_peak_longitudinal.svg"));
+}
+
 TEST(Figures, EscapeNamesAndNeverShowNaN) {
   BeatResult r = test::synthetic_beat();
   r.segments[2].name = "<script>\"&";

@@ -89,16 +89,34 @@ TEST(Page, SaysWhatKindOfMeanTheGlobalStrainIs) {
 
 TEST(Page, PutsNumbersBesidePublishedOnesWithTheirSource) {
   BeatResult r = test::synthetic_beat();
-  r.strain = {-12.3, -25.1, 41.7, 12.6};
+  r.strain = {-12.3, -25.1, 41.7, 12.6, {-15.1, 0, 0}, {-30.2, 0, 0}, 38.5, 0};
   const std::string page = page_of(r);
   for (const char* text : {"healthy adults 50 to 70", "healthy adults 110 to 130", "−20.1 (−20.9 to −19.3)",
                            "Vo et al. 2018", "2346 people"})
     EXPECT_THAT(page, HasSubstr(text)) << text;
-  EXPECT_THAT(page, HasSubstr("<td>−12.3\u00a0%</td><td class=\"left\">weaker</td>"));
-  EXPECT_THAT(page, HasSubstr("<td>−25.1\u00a0%</td><td class=\"left\">stronger</td>"));
-  EXPECT_THAT(page, HasSubstr("<td>41.7\u00a0%</td><td class=\"left\">within</td>"));
+  EXPECT_THAT(page, HasSubstr("<td>−12.3\u00a0%</td><td>−15.1\u00a0%</td><td class=\"left\">weaker</td>"));
+  EXPECT_THAT(page, HasSubstr("<td>−25.1\u00a0%</td><td>−30.2\u00a0%</td><td class=\"left\">stronger</td>"));
+  EXPECT_THAT(page, HasSubstr("<td>41.7\u00a0%</td><td>38.5\u00a0%</td><td class=\"left\">within</td>"));
   EXPECT_THAT(page, Not(HasSubstr("healthy adults 45 to 65")));
   EXPECT_THAT(page_of(test::synthetic_biventricle()), HasSubstr("healthy adults 45 to 65"));
+}
+
+TEST(Page, PutsContoursBesideTheMeans) {
+  EXPECT_THAT(page_of(test::synthetic_beat()),
+              HasSubstr("<td class=\"left\">Longitudinal, left ventricle</td><td>−18.4</td><td>−21.1</td>"
+                        "<td>−18.6</td><td>−15.2</td>"));
+}
+
+TEST(Page, OfTwoVentriclesHasTheGlobalStrainOfTheRightOne) {
+  BeatResult r = test::synthetic_biventricle();
+  r.right_strain = GlobalStrain{-16.2, -18.7, 41.3, NAN, {-20.9, -18, -15}, {NAN, NAN, NAN}, 30.1, 2.5};
+  const std::string page = page_of(r);
+  EXPECT_THAT(page, HasSubstr("Global strain of the right free wall"));
+  EXPECT_THAT(page, HasSubstr(">−16.2 <"));
+  EXPECT_THAT(page,
+              HasSubstr("<td class=\"left\">Longitudinal, right free wall</td><td>−16.2</td><td>−20.9</td>"));
+  EXPECT_THAT(page, HasSubstr("<td>−16.2\u00a0%</td><td>−20.9\u00a0%</td><td class=\"left\">within</td>"));
+  EXPECT_THAT(page_of(test::synthetic_beat()), Not(HasSubstr("right free wall")));
 }
 
 TEST(Page, TellsWhatWasTakenForGranted) {
@@ -136,6 +154,19 @@ TEST(Page, LeavesAnIndexOpenThatComparesUnlikeThings) {
   EXPECT_THAT(page, HasSubstr("<td>−2.0</td><td>600</td><td>–</td>"));
   EXPECT_THAT(peaks_table(r), HasSubstr("basal anterior,-0.02,600,"));
   EXPECT_THAT(peaks_table(r), ContainsRegex("1,basal anterior,-0.02,600,[^,]*,[^,]*,,"));
+}
+
+TEST(Page, TellsTheCirculationOfAVentricle) {
+  BeatResult r = test::synthetic_beat();
+  Haemodynamics h;
+  h.cardiac_output_L_per_min = 5.3;
+  h.arterial_systolic_mmHg = 118, h.arterial_diastolic_mmHg = 71, h.arterial_mean_mmHg = 92;
+  r.ventricles[0].haemodynamics = h;
+  r.ventricles[0].ed_is = "closure of the mitral valve", r.ventricles[0].es_is = "the smallest volume";
+  const std::string page = page_of(r);
+  for (const char* text : {"Cardiac output", ">5.3 <", "Aortic pressure", ">118/71 <", "mean 92",
+                           "End systole: the smallest volume, at 330 ms"})
+    EXPECT_THAT(page, HasSubstr(text)) << text;
 }
 
 TEST(Page, ShowsDashesForWhatDoesNotExist) {

@@ -38,7 +38,7 @@ TEST(ProtocolFacts, WhatIsNotAProtocolHasNoRegions) {
 TEST(ProtocolFacts, AssumptionsFollowWhatIsGiven) {
   const std::string plain = assumptions(R"({"boundary": {"base": "clamped"}})");
   for (const char* text : {"free of stress", "base is clamped", "Nothing holds the outer wall",
-                           "from the apex to", "taken to lie in the direction (0, 1, 0)"})
+                           "runs from the apex", "taken to lie in the direction (0, 1, 0)"})
     EXPECT_THAT(plain, HasSubstr(text));
   const std::string given = assumptions(
       R"({"mesh": {"pressure_mmHg": 9.5}, "anatomy": {"long_axis": [0.0, 0.0, 1.0], "anterior_direction": [1.0, 0.5, 0.0]},
@@ -48,6 +48,9 @@ TEST(ProtocolFacts, AssumptionsFollowWhatIsGiven) {
     EXPECT_THAT(given, HasSubstr(text));
   for (const char* text : {"free of stress", "is clamped", "Nothing holds", "(0, 1, 0)"})
     EXPECT_THAT(given, Not(HasSubstr(text)));
+  const std::string point = assumptions(R"({"anatomy": {"septum_point": [-30.0, 2.0, 0.0]}})");
+  EXPECT_THAT(point, HasSubstr("anatomy.septum_point = (-30, 2, 0)"));
+  EXPECT_THAT(point, Not(HasSubstr("(0, 1, 0)")));
   EXPECT_THAT(assumptions("{}", true), HasSubstr("right ventricle tells"));
 }
 

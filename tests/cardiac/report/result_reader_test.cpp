@@ -74,6 +74,18 @@ TEST_F(ResultReader, GivesBackWhatWasWritten) {
   EXPECT_EQ(read_text(folder() / "summary.json"), before);
 }
 
+TEST_F(ResultReader, ReadsTheCirculationWhereItIs) {
+  EXPECT_TRUE(read_result(folder()).result.circulation.columns.empty());
+  BeatResult r = test::synthetic_beat();
+  r.circulation = {{"time_ms", "aorta_mmHg"}, {{0, 2.5}, {80.25, std::numeric_limits<double>::quiet_NaN()}}};
+  write(r);
+  const CirculationTable back = read_result(folder()).result.circulation;
+  EXPECT_EQ(back.columns, r.circulation.columns);
+  EXPECT_EQ(back.values.at(1).at(0), 80.25);
+  EXPECT_TRUE(std::isnan(back.values.at(1).at(1)));
+  EXPECT_THAT(message_after("circulation.csv", "80.25", "x"), HasSubstr("circulation.csv:2"));
+}
+
 TEST_F(ResultReader, ReadsARunWithoutCirculationOrWithNothing) {
   BeatResult r = test::synthetic_beat();
   r.has_beat = false;
