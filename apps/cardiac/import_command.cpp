@@ -54,18 +54,24 @@ HeartMesh read(const ImportOptions& o) {
   options.label_array = o.labels.label_array;
   options.labels = {surface_labels(o.labels.endo), surface_labels(o.labels.epi),
                     surface_labels(o.labels.base), surface_labels(o.labels.rv_endo)};
+  options.regions = {surface_labels(o.labels.region), o.labels.region_array};
   options.fibre_arrays = o.fibres;
   options.all_fields = o.all_fields;
-  if (is_surface_file(o.file)) {
-    if (!o.labels.surface_file.empty())
-      throw InputError("--surface-file: given beside the closed surface " + o.file.string() +
-                       ", expected beside a mesh of tetrahedra");
-    return fill_surface(o.file, options, o.size_mm);
+  polyaffine::MeshData data = read_any_mesh(o.file);
+  if (is_surface(data)) {
+    const auto refuse = [&](const char* option, bool given) {
+      if (given)
+        throw InputError(std::string(option) + ": given beside the closed surface " + o.file.string() +
+                         ", expected beside a mesh of tetrahedra");
+    };
+    refuse("--surface-file", !o.labels.surface_files.empty());
+    refuse("--region", !o.labels.region.empty());
+    return fill_surface(std::move(data), options, o.size_mm);
   }
   if (o.size_mm)
     throw InputError("--size: given for the tetrahedra of " + o.file.string() +
                      ", expected only with a closed surface");
-  return read_heart(o.file, o.labels.surface_file, options);
+  return read_heart(std::move(data), surface_files(o.labels.surface_files), options);
 }
 
 void write(const ImportOptions& o, [[maybe_unused]] const HeartMesh& heart) {
@@ -102,12 +108,13 @@ void add_import_command(CLI::App& mesh) {
   command
       ->add_option("FILE", o->file,
                    "tetrahedra (.vtu, .vtk, Gmsh .msh, openCARP .pts) or a closed surface (.stl, .off, .obj, "
-                   ".ply, .vtp)")
+                   ".ply, .vtp, .vtk)")
       ->required();
   command->add_option("--length-unit", o->length_unit, "length unit of the file: mm, cm, m or um")
       ->required();
   command->add_option("--out", o->out, "file to write, .vtu, lengths in mm")->required();
   add_label_options(*command, o->labels);
+  add_region_options(*command, o->labels);
   add_fibre_options(*command, o->fibres);
   command->add_option("--size", o->size_mm,
                       "edge length inside a closed surface, mm (default: half the wall)");

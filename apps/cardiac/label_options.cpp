@@ -8,13 +8,28 @@ void add_label_options(CLI::App& command, LabelOptions& options) {
         ->delimiter(',')
         ->allow_extra_args(false);
   };
-  command.add_option("--surface-file", options.surface_file, "second file with the labelled triangles");
+  command
+      .add_option(
+          "--surface-file", options.surface_files,
+          "second file with the labelled triangles; or NAME=FILE, as often as there are surfaces of one "
+          "file each (NAME: endo, epi, base, rv_endo)")
+      ->allow_extra_args(false);
   command.add_option("--label-array", options.label_array,
-                     "cell array of the surface labels (default: surface, label, tag, physical, …)");
+                     "cell or point array of the surface labels (default: surface, label, tag, physical, …)");
   add("--endo-label", options.endo, "endocardium (left ventricle)");
   add("--epi-label", options.epi, "epicardium");
   add("--base-label", options.base, "base");
   add("--rv-endo-label", options.rv_endo, "right endocardium");
+}
+
+void add_region_options(CLI::App& command, LabelOptions& options) {
+  command
+      .add_option("--region", options.region,
+                  "tets that are the wall: numbers or names, divided by commas (default: all tets)")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command.add_option("--region-array", options.region_array,
+                     "array of tets with their regions (default: region, material, tag, physical, …)");
 }
 
 void add_fibre_options(CLI::App& command, FibreArrays& arrays) {

@@ -34,9 +34,9 @@ HeartMeshOptions options_of(const Protocol& protocol) {
 }
 
 HeartMesh read(const Protocol& protocol, std::vector<std::string>& warnings) {
-  HeartMesh heart = read_heart(mesh_path(protocol),
-                               protocol.mesh.surface_file ? surface_path(protocol) : std::filesystem::path(),
-                               options_of(protocol));
+  SurfaceFiles surfaces;
+  if (protocol.mesh.surface_file) surfaces.labelled = surface_path(protocol);
+  HeartMesh heart = read_heart(read_any_mesh(mesh_path(protocol)), surfaces, options_of(protocol));
   for (const auto& list : {heart.warnings, heart.file.notes})
     for (const std::string& text : list) warnings.push_back(mesh_path(protocol).string() + ": " + text);
   return heart;

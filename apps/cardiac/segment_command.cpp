@@ -81,7 +81,12 @@ Protocol as_protocol(const SegmentOptions& o) {
   Protocol protocol;
   protocol.mesh.file = o.mesh.string();
   protocol.mesh.length_unit = length_unit(o.length_unit);
-  if (!o.labels.surface_file.empty()) protocol.mesh.surface_file = o.labels.surface_file;
+  const SurfaceFiles surfaces = surface_files(o.labels.surface_files);
+  if (!surfaces.of_surface.empty())
+    throw InputError(
+        "--surface-file: found files of one surface each, expected one labelled file; "
+        "cardiac mesh import makes one mesh of them");
+  if (!surfaces.labelled.empty()) protocol.mesh.surface_file = surfaces.labelled.string();
   if (!o.labels.label_array.empty()) protocol.mesh.label_array = o.labels.label_array;
   protocol.mesh.endo_label = given_labels(o.labels.endo);
   protocol.mesh.epi_label = given_labels(o.labels.epi);

@@ -63,9 +63,10 @@ inline void write_gmsh_head(NumberWriter& to, const MeshData& mesh, const char* 
   to.out << "$MeshFormat\n" << version << (binary ? " 1 8\n" : " 0 8\n");
   if (binary) to.integer(1).out << '\n';
   to.out << "$EndMeshFormat\n";
-  if (mesh.surface_names.empty()) return;
-  to.out << "$PhysicalNames\n" << mesh.surface_names.size() << '\n';
+  if (mesh.surface_names.empty() && mesh.region_names.empty()) return;
+  to.out << "$PhysicalNames\n" << mesh.surface_names.size() + mesh.region_names.size() << '\n';
   for (const auto& [number, name] : mesh.surface_names) to.out << "2 " << number << " \"" << name << "\"\n";
+  for (const auto& [number, name] : mesh.region_names) to.out << "3 " << number << " \"" << name << "\"\n";
   to.out << "$EndPhysicalNames\n";
 }
 

@@ -1,28 +1,26 @@
 #include "cardiac/anatomy/heart_mesh.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <sstream>
 
+#include <cardiac/anatomy/check_surfaces.hpp>
 #include <cardiac/anatomy/idealised.hpp>
 #include <cardiac/anatomy/recognise_surfaces.hpp>
+#include <cardiac/anatomy/triangle_labels.hpp>
 #include <cardiac/core/units.hpp>
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/mesh/surface.hpp>
-#include <polyaffine/mesh/triangle_adjacency.hpp>
 
 namespace cardiac {
 namespace {
 
 using polyaffine::InputError;
 using polyaffine::TetMesh;
-using polyaffine::Triangles;
 using Strings = std::vector<std::string>;
 
 constexpr double kLeastWall_mL = 1, kMostWall_mL = 1500;
-constexpr double kLeastRoundness = 0.002;  // V/A^1.5 of a cavity; a sphere has 0.09, a lid next to nothing
 
 const char* name_of(int label) {
   constexpr std::array names{"none", "endocardium", "epicardium", "base", "right endocardium"};
@@ -53,74 +51,30 @@ std::map<int, int> by_shape(const TetMesh& mesh, const std::vector<int>& recogni
   return out;
 }
 
-/// The canonical label of each boundary triangle, from the file's numbers.
-std::vector<int> canonical(const TetMesh& mesh, const std::map<int, std::string>& names,
-                           const SurfaceLabelMap& map, Strings& notes) {
-  std::set<int> numbers(mesh.boundary_labels().begin(), mesh.boundary_labels().end());
-  numbers.erase(TetMesh::kUnlabelled);
-  std::map<int, int> label_of = heart_labels(numbers, names, map);
-  if (label_of.empty()) {
-    RecognisedSurfaces shape = recognise_surfaces(mesh);
-    notes.insert(notes.end(), shape.notes.begin(), shape.notes.end());
-    if (numbers.empty()) return shape.labels;
-    label_of = by_shape(mesh, shape.labels, notes);
+/// Fails when none of the labelled triangles of a surface is on the boundary.
+void check_on_boundary(const TetMesh& mesh, const TriangleLabels& given) {
+  for (const int label : std::set<int>(given.labels.begin(), given.labels.end()))
+    if (label != TetMesh::kUnlabelled && !given.optional.contains(label) && mesh.surface({label}).cols() == 0)
+      throw InputError("mesh: found the " + std::to_string(std::ranges::count(given.labels, label)) +
+                       " triangles of the surface " + name_of(label) +
+                       " between two tets, expected them on the boundary of the wall");
+}
+
+/// The canonical label of each boundary triangle.
+std::vector<int> canonical(const TetMesh& mesh, const TriangleLabels& given, bool rest_is_base,
+                           Strings& notes) {
+  std::vector<int> out = mesh.boundary_labels();
+  if (given.known) {
+    check_on_boundary(mesh, given);
+    if (rest_is_base) std::ranges::replace(out, TetMesh::kUnlabelled, kBase);
+    return out;
   }
-  std::vector<int> out;
-  std::map<int, int> unknown;
-  for (const int n : mesh.boundary_labels()) {
-    const auto label = label_of.find(n);
-    out.push_back(label == label_of.end() ? TetMesh::kUnlabelled : label->second);
-    if (label == label_of.end() && n != TetMesh::kUnlabelled) ++unknown[n];
-  }
-  for (const auto& [n, count] : unknown)
-    notes.push_back("label " + std::to_string(n) + " (" + std::to_string(count) +
-                    " triangles) is no surface of a ventricle: left unlabelled");
+  RecognisedSurfaces shape = recognise_surfaces(mesh);
+  notes.insert(notes.end(), shape.notes.begin(), shape.notes.end());
+  if (std::ranges::all_of(out, [](int n) { return n == TetMesh::kUnlabelled; })) return shape.labels;
+  const std::map<int, int> label_of = by_shape(mesh, shape.labels, notes);
+  for (int& n : out) n = n == TetMesh::kUnlabelled ? n : label_of.at(n);
   return out;
-}
-
-/// Volume that the surface with a label surrounds with a cone over its rims, mm³, positive for the outside of
-/// a body.
-double surrounded(const TetMesh& mesh, int label) {
-  const Triangles surface = mesh.surface({label});
-  Vec3 tip = Vec3::Zero();
-  const auto rim = polyaffine::triangle_adjacency(surface).open;
-  for (const auto& [a, b] : rim)
-    tip += (mesh.points().col(a) + mesh.points().col(b)) / (2.0 * static_cast<double>(rim.size()));
-  double sum = 0;
-  for (const auto& t : surface.colwise()) {
-    const Vec3 a = mesh.points().col(t[0]) - tip, b = mesh.points().col(t[1]) - tip;
-    sum += a.dot(b.cross(mesh.points().col(t[2]) - tip)) / 6;
-  }
-  return sum;
-}
-
-[[noreturn]] void fail_contradiction(int label, const std::string& found) {
-  throw InputError(std::string("mesh: the surface labelled ") + name_of(label) + ' ' + found +
-                   "; are labels swapped?");
-}
-
-/// Volume of a cavity, mm³.
-double check_cavity(const TetMesh& mesh, int label) {
-  const polyaffine::EnclosedVolume cavity(mesh, {label});
-  const double volume = cavity.value(mesh.points()), area = polyaffine::surface_area(mesh, {label});
-  if (cavity.rims().empty()) fail_contradiction(label, "is closed, expected an opening at the base");
-  if (volume < kLeastRoundness * std::pow(area, 1.5))
-    fail_contradiction(label, "surrounds no cavity: found " + number(volume / mm3_per_mL) + " mL behind " +
-                                  number(area / 100) + " cm², expected a cavity inside the wall");
-  return volume;
-}
-
-void check_rims(const TetMesh& mesh, int label) {
-  const std::vector<int> base = mesh.surface_points({kBase});
-  const auto rims = polyaffine::rim_loops(mesh.surface({label}));
-  for (const auto& rim : rims)
-    for (const int p : rim)
-      if (!std::ranges::binary_search(base, p)) {
-        const Vec3 x = mesh.points().col(p);
-        throw InputError("open cavity: found a rim of the " + std::string(name_of(label)) +
-                         " off the base at (" + number(x.x()) + ", " + number(x.y()) + ", " + number(x.z()) +
-                         ") mm, expected the endocardium to reach the base all round");
-      }
 }
 
 void warn_of_size(const TetMesh& mesh, double mm_per_unit, Strings& warnings) {
@@ -148,44 +102,44 @@ void warn_of_swapped_ventricles(const TetMesh& mesh, Strings& warnings) {
                        " against " + number(right) + "): are their labels swapped?");
 }
 
-}  // namespace
-
-void check_heart_surfaces(const TetMesh& mesh) {
-  std::vector<int> endocardia{kEndocardium};
-  if (mesh.surface({kRvEndocardium}).cols() > 0) endocardia.push_back(kRvEndocardium);
-  double cavities = 0;
-  for (const int label : endocardia) cavities += check_cavity(mesh, label);
-  if (const double outside = surrounded(mesh, kEpicardium); outside < cavities)
-    fail_contradiction(kEpicardium, "does not surround the cavities: found " + number(outside / mm3_per_mL) +
-                                        " mL within it, expected more than their " +
-                                        number(cavities / mm3_per_mL));
-  for (const int label : endocardia) check_rims(mesh, label);
-}
-
-HeartMesh make_heart_mesh(polyaffine::MeshData volume, const polyaffine::MeshData* surface,
-                          const HeartMeshOptions& options) {
-  std::vector<std::string> fibres = keep_fibre_fields(volume, options.fibre_arrays, options.all_fields);
-  const polyaffine::MeshData& triangles = surface == nullptr ? volume : *surface;
+HeartMesh build(polyaffine::MeshData volume, polyaffine::MeshData* surface, const HeartMeshOptions& options) {
+  polyaffine::MeshData& triangles = surface == nullptr ? volume : *surface;
   if (surface != nullptr && surface->triangles.cols() == 0)
     throw InputError(surface->source.string() + ": found no triangles, expected labelled surface triangles");
-  const bool wanted = surface != nullptr || !options.label_array.empty();
-  const std::string field = polyaffine::label_field(triangles, options.label_array);
-  const polyaffine::SurfaceData labels = wanted || !field.empty()
-                                             ? polyaffine::labelled_surface(triangles, options.label_array)
-                                             : polyaffine::SurfaceData{triangles};
-  HeartMesh out{polyaffine::assemble(volume, labels, options.mm_per_unit), std::move(fibres), {}};
+  keep_regions(volume, options.regions);
+  const TriangleLabels labels = read_triangle_labels(triangles, options.label_array, options.labels);
+  if (surface != nullptr && labels.array.empty()) polyaffine::labelled_surface(*surface, "");  // says why
+  std::vector<std::string> fibres = keep_fibre_fields(volume, options.fibre_arrays, options.all_fields);
+  polyaffine::SurfaceData given{triangles, labels.labels, labels.optional, labels.notes};
+  if (!options.regions.wanted.empty()) given.optional.insert(labels.labels.begin(), labels.labels.end());
+  HeartMesh out{polyaffine::assemble(volume, given, options.mm_per_unit), std::move(fibres), {}};
+  TetMesh& mesh = out.file.mesh;
   try {
-    const auto names = field == "physical" ? triangles.surface_names : std::map<int, std::string>{};
-    std::vector<int> boundary = canonical(out.file.mesh, names, options.labels, out.file.notes);
-    split_cavities(out.file.mesh, boundary, out.file.notes);
-    out.file.mesh = out.file.mesh.with_labels(std::move(boundary));
-    check_heart_surfaces(out.file.mesh);
+    std::vector<int> boundary = canonical(mesh, labels, options.labels.rest_is_base, out.file.notes);
+    split_cavities(mesh, boundary, out.file.notes);
+    mesh = mesh.with_labels(std::move(boundary));
+    check_heart_surfaces(mesh.points(), mesh.boundary(), mesh.boundary_labels());
   } catch (const InputError& error) {
     throw InputError(triangles.source.string() + ": " + error.what());
   }
-  warn_of_size(out.file.mesh, options.mm_per_unit, out.warnings);
-  warn_of_swapped_ventricles(out.file.mesh, out.warnings);
+  warn_of_size(mesh, options.mm_per_unit, out.warnings);
+  warn_of_swapped_ventricles(mesh, out.warnings);
   return out;
+}
+
+}  // namespace
+
+HeartMesh make_heart_mesh(polyaffine::MeshData volume, polyaffine::MeshData* surface,
+                          const HeartMeshOptions& options) {
+  const std::string regions =
+      options.regions.wanted.empty() ? regions_in_words(volume, options.regions.array) : "";
+  try {
+    return build(std::move(volume), surface, options);
+  } catch (const InputError& error) {
+    if (regions.empty()) throw;
+    throw InputError(error.what() + ("; the tets have the regions " + regions) +
+                     ": --region of cardiac mesh import keeps those of the wall");
+  }
 }
 
 }  // namespace cardiac

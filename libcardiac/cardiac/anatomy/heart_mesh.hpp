@@ -2,6 +2,7 @@
 
 #include <cardiac/anatomy/fibre_fields.hpp>
 #include <cardiac/anatomy/surface_names.hpp>
+#include <cardiac/anatomy/tet_regions.hpp>
 #include <polyaffine/mesh_io/assemble.hpp>
 
 namespace cardiac {
@@ -9,8 +10,9 @@ namespace cardiac {
 /// How a mesh file is to be understood.
 struct HeartMeshOptions {
   double mm_per_unit = 1;     ///< 1 for mm, 10 for cm, 1000 for m, 0.001 for µm
-  std::string label_array{};  ///< empty: the first of the usual names (polyaffine::label_field)
+  std::string label_array{};  ///< empty: the usual names (read_triangle_labels)
   SurfaceLabelMap labels{};
+  RegionChoice regions{};
   FibreArrays fibre_arrays{};
   bool all_fields = false;  ///< keep every numeric array, not only fibres
 };
@@ -25,14 +27,14 @@ struct HeartMesh {
 
 /// Makes a heart of the data of a mesh file and, if there is one, of a second file with the labelled
 /// triangles (null: those of the mesh file). Without any label, or with numbers of which none is known, the
-/// surfaces are recognised from the shape; numbers then mean what most of their area is. A wall of less than
-/// 1 or more than 1500 mL is a warning. Throws InputError, naming file and place, as polyaffine::assemble,
-/// heart_labels, recognise_surfaces and check_heart_surfaces, and when a fibre has no length.
-HeartMesh make_heart_mesh(polyaffine::MeshData volume, const polyaffine::MeshData* surface,
+/// surfaces are recognised from the shape; numbers then mean what most of their area is. Triangles of other
+/// labels are left out, with a note; so are, when regions are chosen, those of other parts. A wall of less
+/// than 1 or more than 1500 mL is a warning. Throws InputError, naming file and place, as
+/// read_triangle_labels, keep_regions, polyaffine::assemble, recognise_surfaces and check_heart_surfaces,
+/// when a surface lies inside, and when a fibre has no length; where the tets have several regions and none
+/// is chosen, the message lists them. `surface` may gain triangle labels that are made of those of its
+/// points.
+HeartMesh make_heart_mesh(polyaffine::MeshData volume, polyaffine::MeshData* surface,
                           const HeartMeshOptions& options);
-
-/// Throws InputError when a labelled endocardium surrounds no cavity, has no rim, or one off the base, or
-/// when the epicardium does not surround the cavities: as when labels are swapped.
-void check_heart_surfaces(const polyaffine::TetMesh& mesh);
 
 }  // namespace cardiac

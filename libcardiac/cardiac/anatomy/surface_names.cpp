@@ -44,9 +44,16 @@ std::string listed(const std::set<int>& numbers, const std::map<int, std::string
   return out.empty() ? "none" : out;
 }
 
-/// Numbers of the file that a label stands for.
-std::vector<int> matching(const SurfaceLabel& label, const std::set<int>& numbers,
-                          const std::map<int, std::string>& names) {
+[[noreturn]] void fail_missing(const SurfaceLabel& label, const Role& role, const std::string& found) {
+  throw InputError("mesh: found no triangle with the label " + label_text(label) + " of the surface \"" +
+                   role.name + "\" (labels found: " + found + "), expected one; " + role.name +
+                   "_label must be a label of the mesh");
+}
+
+}  // namespace
+
+std::vector<int> matching_labels(const SurfaceLabel& label, const std::set<int>& numbers,
+                                 const std::map<int, std::string>& names) {
   std::vector<int> out;
   for (const int n : numbers) {
     const auto name = names.find(n);
@@ -57,18 +64,10 @@ std::vector<int> matching(const SurfaceLabel& label, const std::set<int>& number
   return out;
 }
 
-std::string text(const SurfaceLabel& label) {
+std::string label_text(const SurfaceLabel& label) {
   const auto* name = std::get_if<std::string>(&label);
   return name == nullptr ? std::to_string(std::get<int>(label)) : '"' + *name + '"';
 }
-
-[[noreturn]] void fail_missing(const SurfaceLabel& label, const Role& role, const std::string& found) {
-  throw InputError("mesh: found no boundary triangle with the label " + text(label) + " of the surface \"" +
-                   role.name + "\" (labels found: " + found + "), expected one; " + role.name +
-                   "_label must be a label of the mesh");
-}
-
-}  // namespace
 
 std::optional<int> surface_of_name(const std::string& name) {
   const std::vector<std::string> parts = words(name);
@@ -104,7 +103,7 @@ std::map<int, int> heart_labels(const std::set<int>& numbers, const std::map<int
   for (const Role& role : kRoles)
     for (const SurfaceLabel& label : map.*role.member) {
       said = true;
-      const std::vector<int> chosen = matching(label, numbers, names);
+      const std::vector<int> chosen = matching_labels(label, numbers, names);
       if (chosen.empty()) fail_missing(label, role, found);
       for (const int n : chosen) claim(n, role);
     }
@@ -120,7 +119,8 @@ std::map<int, int> heart_labels(const std::set<int>& numbers, const std::map<int
   for (const Role& role : kRoles) {
     const bool there =
         std::ranges::any_of(out, [&](const auto& entry) { return entry.second == role.label; });
-    if (!there && role.label != kRvEndocardium) fail_missing(role.label, role, found);
+    if (!there && role.label != kRvEndocardium && !(role.label == kBase && map.rest_is_base))
+      fail_missing(role.label, role, found);
   }
   return out;
 }

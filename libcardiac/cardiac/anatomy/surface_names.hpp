@@ -16,7 +16,15 @@ using SurfaceLabel = std::variant<int, std::string>;
 /// (endocardium), 2 (epicardium), 3 (base), 4 (endocardium of the right ventricle).
 struct SurfaceLabelMap {
   std::vector<SurfaceLabel> endo{}, epi{}, base{}, rv_endo{};
+  bool rest_is_base = false;  ///< boundary without a label is base; no label need say so
 };
+
+/// The numbers that a label stands for; `names` are the file's names of some of them.
+std::vector<int> matching_labels(const SurfaceLabel& label, const std::set<int>& numbers,
+                                 const std::map<int, std::string>& names);
+
+/// A label as a message tells it: 7, "endo".
+std::string label_text(const SurfaceLabel& label);
 
 /// The label (kEndocardium, kEpicardium, kBase, kRvEndocardium) behind a name in common use: lv_endo,
 /// ENDO_LV, endocardium, Epicardium, base, top, mitral valve, RV, …; none for other names.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include <polyaffine/core/error.hpp>
@@ -119,29 +120,45 @@ void orient(const MeshData& data, const Points& points, Tets& tets, const std::v
     notes.push_back(std::to_string(count) + " tets turned to the orientation of the others");
 }
 
+[[noreturn]] void fail_off_face(const SurfaceData& surface, int triangle) {
+  fail(surface.data, "labelled triangle " + std::to_string(triangle) + " (label " +
+                         std::to_string(surface.labels[triangle]) +
+                         ") is not a face of the boundary of the tetrahedra");
+}
+
+[[noreturn]] void fail_off_point(const MeshData& data, int triangle, int point, double tolerance) {
+  std::ostringstream within;
+  within << tolerance;
+  fail(data, "triangle " + std::to_string(triangle) + ": found its point " +
+                 place(data.points.col(point), "(in the file's unit)") +
+                 " away from every tet vertex, expected one within " + within.str());
+}
+
 /// The chosen triangles on the points of the mesh (in the unit of the file); points without a number are
-/// found by position.
-Triangles joined(const MeshData& data, const std::vector<int>& chosen, const Points& points,
+/// found by position. A point of an optional triangle that is nowhere is −1; fails when all are.
+Triangles joined(const SurfaceData& surface, const std::vector<int>& chosen, const Points& points,
                  std::vector<int> number) {
+  const MeshData& data = surface.data;
   const double tolerance = kSurfacePoint * extent(points);
   PointGrid grid(tolerance);
   const Vec3 centre = points.rowwise().mean();
   for (int i = 0; i < static_cast<int>(points.cols()); ++i) grid.add(points.col(i) - centre, i);
   Triangles out(3, static_cast<Eigen::Index>(chosen.size()));
-  for (Eigen::Index i = 0; i < out.cols(); ++i)
+  std::size_t found = 0;
+  for (Eigen::Index i = 0; i < out.cols(); ++i) {
+    int lost = -1;
     for (int k = 0; k < 3; ++k) {
       const int p = data.triangles(k, chosen[i]);
       const Vec3 x = data.points.col(p);
       if (number[p] < 0 && (x - centre).norm() <= 2 * extent(points)) number[p] = grid.find(x - centre);
-      if (number[p] < 0) {
-        std::ostringstream within;
-        within << tolerance;
-        fail(data, "triangle " + std::to_string(chosen[i]) + ": found its point " +
-                       place(x, "(in the file's unit)") +
-                       " away from every tet vertex, expected one within " + within.str());
-      }
+      if (number[p] < 0) lost = p;
       out(k, i) = number[p];
     }
+    found += lost < 0;
+    const bool last = i + 1 == out.cols();
+    if (lost >= 0 && (!surface.optional.contains(surface.labels[chosen[i]]) || (last && found == 0)))
+      fail_off_point(data, chosen[i], lost, tolerance);
+  }
   return out;
 }
 
@@ -153,24 +170,47 @@ LabelledTriangles labelled(const SurfaceData& surface, const std::vector<TetFace
   for (int i = 0; i < static_cast<int>(surface.labels.size()); ++i)
     if (surface.labels[i] != TetMesh::kUnlabelled) chosen.push_back(i);
   if (chosen.empty()) return {};
-  const Triangles triangles = joined(surface.data, chosen, points, number);
+  const Triangles triangles = joined(surface, chosen, points, number);
   LabelledTriangles out;
+  std::map<int, int> off;             // triangles of optional labels that are no faces
+  std::map<FaceKey, std::size_t> at;  // place in the answer
+  std::size_t inside = 0, repeated = 0, doubtful = 0;
   for (int i = 0; i < static_cast<int>(triangles.cols()); ++i) {
+    const int label = surface.labels[chosen[i]];
+    const bool optional = surface.optional.contains(label);
+    if ((triangles.col(i).array() < 0).any()) {
+      ++off[label];
+      continue;
+    }
     const FaceKey key = face_key(triangles(0, i), triangles(1, i), triangles(2, i));
     const auto first = std::ranges::lower_bound(faces, key, {}, &TetFace::key);
     const auto shared_by = std::ranges::upper_bound(first, faces.end(), key, {}, &TetFace::key) - first;
-    const int label = surface.labels[chosen[i]];
-    if (shared_by == 0)
-      fail(surface.data, "labelled triangle " + std::to_string(chosen[i]) + " (label " +
-                             std::to_string(label) + ") is not a face of the boundary of the tetrahedra");
-    if (shared_by > 1) continue;
-    outer.push_back(i);
-    out.labels.push_back(label);
+    if (shared_by == 0 && !optional) fail_off_face(surface, chosen[i]);
+    off[label] += shared_by == 0;
+    inside += shared_by > 1;
+    if (shared_by != 1) continue;
+    const auto [entry, first_time] = at.emplace(key, outer.size());
+    if (first_time) {
+      outer.push_back(i);
+      out.labels.push_back(label);
+      continue;
+    }
+    ++repeated;
+    int& earlier = out.labels[entry->second];
+    const bool replaced = surface.optional.contains(earlier) && !optional;
+    doubtful += earlier != label && surface.optional.contains(earlier) == optional;
+    if (replaced) earlier = label;
   }
   out.triangles = triangles(Eigen::all, outer);
-  if (outer.size() < chosen.size())
-    notes.push_back(std::to_string(chosen.size() - outer.size()) +
-                    " labelled triangles inside the wall left out");
+  if (outer.empty() && inside == 0) fail_off_face(surface, chosen.front());
+  if (inside > 0) notes.push_back(std::to_string(inside) + " labelled triangles inside the wall left out");
+  if (repeated > 0) notes.push_back(std::to_string(repeated) + " repeated triangles left out");
+  if (doubtful > 0)
+    notes.push_back(std::to_string(doubtful) + " triangles are listed with two labels: the first one counts");
+  for (const auto& [label, count] : off)
+    if (count > 0)
+      notes.push_back(std::to_string(count) + " triangles with label " + std::to_string(label) +
+                      " left out: no faces of the boundary");
   return out;
 }
 
@@ -221,6 +261,9 @@ MeshFile assemble(const MeshData& volume, const SurfaceData& surface, double mm_
                      : "found no tetrahedra, expected at least one");
   MeshFile out;
   out.notes = volume.notes;
+  if (&surface.data != &volume)
+    out.notes.insert(out.notes.end(), surface.data.notes.begin(), surface.data.notes.end());
+  out.notes.insert(out.notes.end(), surface.notes.begin(), surface.notes.end());
   std::vector<char> used(volume.points.cols(), 0);
   for (const int p : volume.tets.reshaped()) used[p] = 1;
   const Numbering kept = unique_points(volume, used);

@@ -17,7 +17,9 @@ struct MeshFile {
 ///
 /// Repaired and noted: points in the same place (within 1e-7 of the size of the mesh) are joined, points
 /// without a tet dropped, tets of negative orientation turned, provided that neighbours then lie on opposite
-/// sides of their common face; labelled triangles between two tets are left out. Labelled triangles on points
+/// sides of their common face; labelled triangles between two tets are left out, and so are repetitions and
+/// those of optional labels that are no faces. A triangle listed with two labels has that which is not
+/// optional, or the first of them. Labelled triangles on points
 /// of their own are joined to the tets by position (within 1e-5 of the size). The tet field "region" gives
 /// the region of each tet. All fields keep their values and units.
 /// Throws InputError, naming file and place, for a coordinate that is not finite, a flat or inverted tet, a

@@ -9,18 +9,18 @@ namespace {
 
 using namespace gmsh;
 
-/// Names of the groups of triangles.
-std::map<int, std::string> read_names(FileScanner& scan) {
-  std::map<int, std::string> names;
+/// Names of the groups of triangles and of tetrahedra.
+void read_names(FileScanner& scan, MeshData& data) {
   for (std::size_t i = scan.count("the number of physical groups", 4); i > 0; --i) {
     const long long dimension = scan.integer("the dimension of a group");
     const long long number = scan.integer("the number of a group");
     const std::string_view line = scan.line();
     const auto begin = line.find('"'), end = line.rfind('"');
     if (begin == std::string_view::npos || begin == end) scan.fail("expected a name in quotes");
-    if (dimension == 2) names[static_cast<int>(number)] = line.substr(begin + 1, end - begin - 1);
+    if (dimension != 2 && dimension != 3) continue;
+    auto& names = dimension == 2 ? data.surface_names : data.region_names;
+    names[static_cast<int>(number)] = line.substr(begin + 1, end - begin - 1);
   }
-  return names;
 }
 
 /// The rows of a table in the order of tags; empty when one has no row.
@@ -68,7 +68,7 @@ MeshData read_gmsh(const std::filesystem::path& file) {
     const bool four = in.version > 4;
     if (four && in.binary && section != "$PhysicalNames" && !section.ends_with("Data")) in.scan.line();
     if (section == "$PhysicalNames") {
-      data.surface_names = read_names(in.scan);
+      read_names(in.scan, data);
     } else if (section == "$Entities" && four) {
       groups = read_entities_4(in);
     } else if (section == "$Nodes") {

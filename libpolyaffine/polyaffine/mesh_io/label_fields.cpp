@@ -19,12 +19,16 @@ constexpr std::array kUsualNames{"surface",    "label",         "labels",    "ta
                                  "physical",   "gmsh:physical", "medit:ref", "cellentityids", "modelfaceid",
                                  "facet_tags", "markers",       "boundary",  "elemtag"};
 
-[[noreturn]] void fail_without_labels(const MeshData& data, const std::string& expected) {
+std::string names_of(const std::map<std::string, Matrix>& fields) {
   std::string names;
-  for (const auto& [name, field] : data.triangle_fields)
-    names += (names.empty() ? "\"" : ", \"") + name + '"';
+  for (const auto& [name, field] : fields) names += (names.empty() ? "\"" : ", \"") + name + '"';
+  return names.empty() ? "none" : names;
+}
+
+[[noreturn]] void fail_without_labels(const MeshData& data, const std::string& expected) {
   fail(data, "found no label array for the surface triangles (cell arrays: " +
-                 (names.empty() ? "none" : names) + "), expected an integer cell array named " + expected);
+                 names_of(data.triangle_fields) + "; point arrays: " + names_of(data.point_fields) +
+                 "), expected an integer array named " + expected);
 }
 
 std::string lower(std::string text) {
@@ -49,13 +53,13 @@ std::vector<int> integer_field(const MeshData& data, const std::map<std::string,
                                const std::string& name) {
   const Matrix& field = fields.at(name);
   if (field.rows() != 1)
-    fail(data, "cell array \"" + name + "\": found " + std::to_string(field.rows()) +
-                   " components, expected one integer a cell");
+    fail(data, "array \"" + name + "\": found " + std::to_string(field.rows()) +
+                   " components, expected one integer");
   std::vector<int> out;
   out.reserve(field.cols());
   for (const double value : field.reshaped()) {
     if (!(std::abs(value) <= std::numeric_limits<int>::max()) || value != std::round(value))
-      fail(data, "cell array \"" + name + "\", cell " + std::to_string(out.size()) + ": found " +
+      fail(data, "array \"" + name + "\", entry " + std::to_string(out.size()) + ": found " +
                      std::to_string(value) + ", expected an integer");
     out.push_back(static_cast<int>(value));
   }
@@ -65,7 +69,15 @@ std::vector<int> integer_field(const MeshData& data, const std::map<std::string,
 SurfaceData labelled_surface(const MeshData& data, const std::string& wanted) {
   const std::string name = label_field(data, wanted);
   if (name.empty()) fail_without_labels(data, "\"surface\", \"label\", \"tag\" or \"physical\"");
-  return {data, integer_field(data, data.triangle_fields, name)};
+  Matrix numbers = data.triangle_fields.at(name);
+  const auto none = numbers.array().isNaN().count();
+  SurfaceData out{data};
+  if (none > 0) {
+    numbers = numbers.array().isNaN().select(0, numbers);
+    out.notes.push_back(std::to_string(none) + " triangles whose label is not a number taken as unlabelled");
+  }
+  out.labels = integer_field(data, {{name, numbers}}, name);
+  return out;
 }
 
 }  // namespace polyaffine

@@ -19,6 +19,7 @@ struct MeshData {
   std::map<std::string, Matrix> tet_fields;       ///< components × tets
   std::map<std::string, Matrix> triangle_fields;  ///< components × triangles
   std::map<int, std::string> surface_names;       ///< of numbers in the triangle field "physical"
+  std::map<int, std::string> region_names;        ///< of numbers in the tet field "region"
   std::vector<std::string> notes;                 ///< what of the file was left out or reduced
 };
 

@@ -1,9 +1,12 @@
 #include "polyaffine/mesh_io/opencarp.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <limits>
 #include <map>
 #include <string>
 
+#include <polyaffine/mesh_io/file_extension.hpp>
 #include <polyaffine/mesh_io/file_scanner.hpp>
 
 namespace polyaffine {
@@ -86,7 +89,12 @@ void read_fibres(const std::filesystem::path& file, const std::vector<char>& is_
 }  // namespace
 
 MeshData read_opencarp(const std::filesystem::path& file) {
-  const auto with = [&](const char* extension) {
+  // The companion of a file with the extension in capitals has it in capitals too.
+  const bool capitals = file.extension() != lower_extension(file);
+  const auto with = [&](std::string extension) {
+    const auto small = std::filesystem::path(file).replace_extension(extension);
+    if (!capitals || std::filesystem::exists(small)) return small;
+    std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::toupper(c); });
     return std::filesystem::path(file).replace_extension(extension);
   };
   MeshData data;

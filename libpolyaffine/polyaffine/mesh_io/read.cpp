@@ -1,6 +1,7 @@
 #include "polyaffine/mesh_io/read.hpp"
 
 #include <polyaffine/core/error.hpp>
+#include <polyaffine/mesh_io/file_extension.hpp>
 #include <polyaffine/mesh_io/gmsh.hpp>
 #include <polyaffine/mesh_io/opencarp.hpp>
 #include <polyaffine/mesh_io/surface_formats.hpp>
@@ -20,11 +21,11 @@ const std::map<std::string, Reader>& readers() {
 }  // namespace
 
 bool has_reader(const std::filesystem::path& file) {
-  return readers().contains(file.extension().string());
+  return readers().contains(lower_extension(file));
 }
 
 MeshData read_mesh_data(const std::filesystem::path& file) {
-  const auto found = readers().find(file.extension().string());
+  const auto found = readers().find(lower_extension(file));
   if (found != readers().end()) return found->second(file);
   std::string known;
   for (const auto& [extension, reader] : readers()) known += (known.empty() ? "" : ", ") + extension;

@@ -3,9 +3,11 @@
 #include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkCellTypes.h>
+#include <vtkCharArray.h>
 #include <vtkDataArray.h>
 #include <vtkDataSetReader.h>
 #include <vtkIdList.h>
+#include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPointSet.h>
 #include <vtkPolyData.h>
@@ -14,8 +16,12 @@
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include <algorithm>
+#include <array>
 #include <new>
 #include <polyaffine/core/error.hpp>
+#include <polyaffine/mesh_io/file_extension.hpp>
+#include <polyaffine/mesh_io/file_scanner.hpp>
 #include <polyaffine/vtk/child_process.hpp>
 #include <polyaffine/vtk/message_trap.hpp>
 
@@ -28,11 +34,56 @@ using std::filesystem::path;
   throw InputError(file.string() + ": " + what);
 }
 
+void open(vtkXMLReader& reader, const path& file) {
+  reader.SetFileName(file.c_str());
+}
+
+/// The text with the names of types that VTK 9.1 does not know, but writers of the format 5.1 use (meshio's
+/// int32 is "vtktypeint32"), replaced by those it knows; empty when there are none.
+std::string with_known_types(std::string_view text) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kTypes{
+      {{"vtktypeint8", "char"},
+       {"vtktypeuint8", "unsigned_char"},
+       {"vtktypeint16", "short"},
+       {"vtktypeuint16", "unsigned_short"},
+       {"vtktypeint32", "int"},
+       {"vtktypeuint32", "unsigned_int"},
+       {"vtktypefloat32", "float"},
+       {"vtktypefloat64", "double"}}};
+  constexpr std::string_view kBegin = " vtktype";
+  std::string out;
+  std::size_t from = 0;
+  for (std::size_t at = text.find(kBegin); at != std::string_view::npos; at = text.find(kBegin, at + 1)) {
+    const std::size_t begin = at + 1, end = std::min(text.find_first_of(" \r\n", begin), text.size());
+    const auto known = std::ranges::find(kTypes, text.substr(begin, end - begin),
+                                         &std::pair<std::string_view, std::string_view>::first);
+    if (known == kTypes.end()) continue;
+    out.append(text.substr(from, begin - from)).append(known->second);
+    from = end;
+  }
+  if (from > 0) out.append(text.substr(from));
+  return out;
+}
+
+void open(vtkDataSetReader& reader, const path& file) {
+  const FileScanner scan(file);
+  const std::string text = with_known_types(scan.text());
+  if (text.empty()) {
+    reader.SetFileName(file.c_str());
+    return;
+  }
+  const vtkNew<vtkCharArray> array;
+  array->SetNumberOfValues(static_cast<vtkIdType>(text.size()));
+  std::ranges::copy(text, array->GetPointer(0));
+  reader.SetInputArray(array);
+  reader.ReadFromInputStringOn();
+}
+
 template <class Reader>
 vtkSmartPointer<vtkPointSet> load_as(const path& file, const char* format) {
   const MessageTrap trap;
   const auto reader = vtkSmartPointer<Reader>::New();
-  reader->SetFileName(file.c_str());
+  open(*reader, file);
   const auto damaged = [&](const std::string& error) {
     fail(file, std::string("found a damaged file, expected a ") + format +
                    (error.empty() ? "" : " (" + error + ")"));
@@ -49,7 +100,7 @@ vtkSmartPointer<vtkPointSet> load_as(const path& file, const char* format) {
 
 vtkSmartPointer<vtkPointSet> load(const path& file) {
   if (!std::filesystem::is_regular_file(file)) fail(file, "found no such file");
-  const std::string extension = file.extension().string();
+  const std::string extension = lower_extension(file);
   const auto data = extension == ".vtu"   ? load_as<vtkXMLUnstructuredGridReader>(file, "VTK XML file")
                     : extension == ".vtp" ? load_as<vtkXMLPolyDataReader>(file, "VTK XML file")
                                           : load_as<vtkDataSetReader>(file, "legacy VTK file");
@@ -130,7 +181,7 @@ MeshData read(const path& file) {
 }  // namespace
 
 bool is_vtk_file(const path& file) {
-  const std::string extension = file.extension().string();
+  const std::string extension = lower_extension(file);
   return extension == ".vtu" || extension == ".vtk" || extension == ".vtp";
 }
 

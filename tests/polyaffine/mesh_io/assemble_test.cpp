@@ -107,6 +107,72 @@ TEST(Assemble, TrianglesInsideTheWallAreLeftOut) {
   EXPECT_THAT(made(data).notes, Contains(HasSubstr("inside the wall left out")));
 }
 
+/// A triangle more, off the box or on a face of it, with a label.
+void add_triangle(MeshData& data, const Eigen::Vector3i& corners, int label) {
+  const Eigen::Index n = data.triangles.cols();
+  data.triangles.conservativeResize(3, n + 1);
+  data.triangles.col(n) = corners;
+  data.triangle_fields["physical"].conservativeResize(1, n + 1);
+  data.triangle_fields["physical"](0, n) = label;
+}
+
+TEST(Assemble, OptionalTrianglesThatAreNoFacesAreLeftOut) {
+  MeshData data = box();
+  const MeshFile plain = made(data);
+  const auto lost = static_cast<int>(data.points.cols());
+  data.points.conservativeResize(3, lost + 1);
+  data.points.col(lost) = Vec3(9, 9, 9);
+  add_triangle(data, {0, 13, 26}, 7);
+  add_triangle(data, {0, 1, lost}, 7);
+  SurfaceData surface = labelled_surface(data, "");
+  surface.optional = {7};
+  const MeshFile out = assemble(data, surface, 1);
+  EXPECT_EQ(out.mesh.boundary_labels(), plain.mesh.boundary_labels());
+  EXPECT_THAT(out.notes, Contains(HasSubstr("2 triangles with label 7 left out")));
+  surface.optional = {};
+  EXPECT_THROW(assemble(data, surface, 1), InputError);
+}
+
+TEST(Assemble, SurfacesThatAreAllAwayAreRefusedEvenWhenOptional) {
+  const MeshData volume = box();
+  MeshData surface = box();
+  surface.points.array() *= 1000;
+  SurfaceData labels = labelled_surface(surface, "");
+  labels.optional = {1, 2, 3, 4, 5, 6};
+  EXPECT_THROW(assemble(volume, labels, 1), InputError);
+}
+
+TEST(Assemble, OfTwoLabelsOfATriangleThatWhichIsNotOptionalCounts) {
+  for (const bool first : {true, false}) {
+    MeshData data = box();
+    const MeshFile plain = made(data);
+    for (const int t : {0, 5}) add_triangle(data, data.triangles.col(t).reverse(), 9);
+    if (first) {
+      data.triangles = Triangles(data.triangles.rowwise().reverse());
+      data.triangle_fields["physical"] = Matrix(data.triangle_fields["physical"].rowwise().reverse());
+    }
+    SurfaceData surface = labelled_surface(data, "");
+    surface.optional = {9};
+    const MeshFile out = assemble(data, surface, 1);
+    EXPECT_EQ(out.mesh.boundary_labels(), plain.mesh.boundary_labels());
+    EXPECT_THAT(out.notes, Contains(HasSubstr("2 repeated triangles left out")));
+  }
+  MeshData data = box();
+  const MeshFile plain = made(data);
+  add_triangle(data, data.triangles.col(0), 9);
+  const MeshFile out = made(data);
+  EXPECT_EQ(out.mesh.boundary_labels(), plain.mesh.boundary_labels());
+  EXPECT_THAT(out.notes, Contains(HasSubstr("1 triangles are listed with two labels: the first one counts")));
+}
+
+TEST(Assemble, LabelsThatAreNotNumbersAreNone) {
+  MeshData data = box();
+  data.triangle_fields["physical"](0, 3) = std::numeric_limits<double>::quiet_NaN();
+  const SurfaceData surface = labelled_surface(data, "");
+  EXPECT_EQ(surface.labels[3], TetMesh::kUnlabelled);
+  EXPECT_THAT(surface.notes, Contains(HasSubstr("1 triangles whose label is not a number")));
+}
+
 TEST(Assemble, RefusalsNameFileAndPlace) {
   EXPECT_THAT(refusal([](MeshData& m) { m.points(1, 3) = std::nan(""); }),
               AllOf(HasSubstr("box.msh: "), HasSubstr("point 3"), HasSubstr("not a number")));
