@@ -16,6 +16,7 @@
 #include <cardiac/fibres/fibre_difference.hpp>
 #include <cardiac/fibres/helix.hpp>
 #include <cardiac/heart/discretisation.hpp>
+#include <cardiac/heart/wall.hpp>
 #include <cardiac/report/segment_picture.hpp>
 #include <polyaffine/core/atomic_file.hpp>
 #include <polyaffine/core/error.hpp>
@@ -44,7 +45,7 @@ struct SegmentOptions {
   LabelOptions labels;
   FibreArrays arrays;
   std::vector<double> anterior{0, 1, 0}, long_axis;
-  HelixAngles angles;
+  HelixAngles angles = helix_angles(protocol::Fibres());  // those of a run
   bool force = false;
 };
 
