@@ -17,6 +17,7 @@
 #include <cardiac/fibres/fibre_difference.hpp>
 #include <cardiac/fibres/helix.hpp>
 #include <cardiac/heart/discretisation.hpp>
+#include <cardiac/heart/wall.hpp>
 #include <cardiac/report/segment_picture.hpp>
 #include <polyaffine/core/atomic_file.hpp>
 #include <polyaffine/core/error.hpp>
@@ -46,7 +47,7 @@ struct SegmentOptions {
   LabelOptions labels;
   FibreArrays arrays;
   std::vector<double> anterior, long_axis, septum_point, rv_insertion_point, mitral_point;
-  HelixAngles angles;
+  HelixAngles angles = helix_angles(protocol::Fibres());  // those of a run
   bool force = false;
 };
 

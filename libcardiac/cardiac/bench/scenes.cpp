@@ -40,6 +40,8 @@ epi_angle_deg = -60.0
 [activation]
 mode = "uniform"
 [contraction]
+contractility_kPa = 150.0
+cross_fibre_fraction = 0.0
 [cavities]
 pressure_mmHg = 101.26
 )";

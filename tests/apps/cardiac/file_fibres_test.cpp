@@ -46,8 +46,9 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
 class FileFibres : public testing::Test {
  protected:
   void SetUp() override {
-    const ProgramRun run =
-        run_program("segment " + kLand + " --scheme aha17 --length-unit mm --out " + in("rule.vtu").string());
+    const ProgramRun run = run_program(
+        "segment " + kLand + " --scheme aha17 --length-unit mm --endo-angle 60 --epi-angle -60 --out " +
+        in("rule.vtu").string());
     ASSERT_EQ(run.status, 0) << run.err;
     EXPECT_THAT(run.out, Not(HasSubstr("angle between")));
   }
@@ -62,7 +63,7 @@ class FileFibres : public testing::Test {
   /// A passive inflation with Guccione's law: stiffer along the fibre.
   ProgramRun run(const std::string& mesh, const std::string& fibres, const std::string& options = "") const {
     std::ofstream(in("heart.toml")) << "[mesh]\nfile = \"" << mesh << "\"\nlength_unit = \"mm\"\n"
-                                    << "[tissue]\nlaw = \"guccione\"\n[fibres]\n"
+                                    << "[tissue]\nlaw = \"guccione\"\nbfs = 4\n[fibres]\n"
                                     << fibres
                                     << "\n[cavities]\npressure_mmHg = 7.5\n[time]\nload_steps = 3\n"
                                        "[output]\nfigures = false\nmesh_series = false\n";
@@ -83,7 +84,7 @@ TEST_F(FileFibres, TheRulesFibresByWayOfAFileGiveTheSameStrains) {
                                           " --length-unit mm --out " + in("imported.vtu").string());
   ASSERT_EQ(imported.status, 0) << imported.err;
   for (const std::string method : {"polyaffine", "fem"}) {
-    const auto rule = strain(kLand, "", "--method " + method);
+    const auto rule = strain(kLand, "endo_angle_deg = 60\nepi_angle_deg = -60", "--method " + method);
     const auto file = strain("imported.vtu", "source = \"file\"", "--method " + method);
     const auto other = strain(kLand, "endo_angle_deg = 30\nepi_angle_deg = -30", "--method " + method);
     // Strains reach 0.19; one vector a tet tells the turning fibres of a wall two tets thick to 0.0015.

@@ -24,8 +24,13 @@ integration = "trained"
 [tissue]
 law = "guccione"
 bulk_modulus_kPa = 300.0
+bfs = 4.0
 [fibres]
+endo_angle_deg = 60.0
+epi_angle_deg = -60.0
 [contraction]
+contractility_kPa = 150.0
+cross_fibre_fraction = 0.0
 [activation]
 mode = "uniform"
 [cavities]
