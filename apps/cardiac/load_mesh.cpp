@@ -27,6 +27,7 @@ HeartMeshOptions options_of(const Protocol& protocol, const WallSizeRule& size) 
   options.labels = {mesh.endo_label.value_or(protocol::Labels{}), mesh.epi_label.value_or(protocol::Labels{}),
                     mesh.base_label.value_or(protocol::Labels{}),
                     mesh.rv_endo_label.value_or(protocol::Labels{})};
+  options.regions = {mesh.region.value_or(protocol::Labels{}), mesh.region_array.value_or("")};
   if (protocol.fibres && protocol.fibres->source == protocol::FibreSource::file) {
     options.fibre_arrays = {protocol.fibres->fibre_array.value_or(""),
                             protocol.fibres->sheet_array.value_or("")};
@@ -35,10 +36,22 @@ HeartMeshOptions options_of(const Protocol& protocol, const WallSizeRule& size) 
   return options;
 }
 
+SurfaceFiles surfaces_of(const Protocol& protocol) {
+  SurfaceFiles out;
+  if (protocol.mesh.surface_file) out.labelled = surface_path(protocol);
+  if (!protocol.mesh.surface_files) return out;
+  out = surface_files(*protocol.mesh.surface_files);
+  const auto from_protocol = [&](std::filesystem::path& file) {
+    if (!file.empty()) file = (protocol.directory / file).lexically_normal();
+  };
+  from_protocol(out.labelled);
+  for (auto& [surface, file] : out.of_surface) from_protocol(file);
+  return out;
+}
+
 HeartMesh read(const Protocol& protocol, std::vector<std::string>& warnings, const WallSizeRule& size) {
-  SurfaceFiles surfaces;
-  if (protocol.mesh.surface_file) surfaces.labelled = surface_path(protocol);
-  HeartMesh heart = read_heart(read_any_mesh(mesh_path(protocol)), surfaces, options_of(protocol, size));
+  HeartMesh heart =
+      read_heart(read_any_mesh(mesh_path(protocol)), surfaces_of(protocol), options_of(protocol, size));
   for (const auto& list : {heart.warnings, heart.file.notes})
     for (const std::string& text : list) warnings.push_back(mesh_path(protocol).string() + ": " + text);
   return heart;

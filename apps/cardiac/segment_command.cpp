@@ -84,12 +84,9 @@ Protocol as_protocol(const SegmentOptions& o) {
   Protocol protocol;
   protocol.mesh.file = o.mesh.string();
   protocol.mesh.length_unit = length_unit(o.length_unit);
-  const SurfaceFiles surfaces = surface_files(o.labels.surface_files);
-  if (!surfaces.of_surface.empty())
-    throw InputError(
-        "--surface-file: found files of one surface each, expected one labelled file; "
-        "cardiac mesh import makes one mesh of them");
-  if (!surfaces.labelled.empty()) protocol.mesh.surface_file = surfaces.labelled.string();
+  if (!o.labels.surface_files.empty()) protocol.mesh.surface_files = o.labels.surface_files;
+  protocol.mesh.region = given_labels(o.labels.region);
+  if (!o.labels.region_array.empty()) protocol.mesh.region_array = o.labels.region_array;
   if (!o.labels.label_array.empty()) protocol.mesh.label_array = o.labels.label_array;
   protocol.mesh.endo_label = given_labels(o.labels.endo);
   protocol.mesh.epi_label = given_labels(o.labels.epi);
@@ -260,6 +257,7 @@ void add_segment_command(CLI::App& app) {
   command->add_option("--out", o->out, "file to write, .vtu, lengths in mm")->required();
   command->add_option("--picture", o->picture, "also draw the segments from three sides, .svg");
   add_label_options(*command, o->labels);
+  add_region_options(*command, o->labels);
   add_fibre_options(*command, o->arrays);
   CLI::App* anterior = command->add_option_group("anterior", "Where anterior is without a right ventricle");
   anterior

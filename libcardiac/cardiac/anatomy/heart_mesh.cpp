@@ -124,7 +124,7 @@ HeartMesh make_heart_mesh(polyaffine::MeshData volume, polyaffine::MeshData* sur
   } catch (const InputError& error) {
     if (regions.empty()) throw;
     throw InputError(error.what() + ("; the tets have the regions " + regions) +
-                     ": --region of cardiac mesh import keeps those of the wall");
+                     ": mesh.region, or --region of cardiac mesh import, keeps those of the wall");
   }
 }
 

@@ -56,10 +56,28 @@ Table mesh_table() {
             .absent = "the triangles of the mesh file",
             .used_with = "file",
             .path = true})
+      .key("surface_files", &Mesh::surface_files,
+           {.meaning =
+                "files that are one surface each, as \"NAME=FILE\" with NAME endo, epi, base or rv_endo; "
+                "unit and paths as of surface_file. Without a file of the base the rest of the boundary "
+                "is base",
+            .absent = "surface_file, or the triangles of the mesh file",
+            .used_with = "file",
+            .path = true})
       .key("label_array", &Mesh::label_array,
-           {.meaning = "cell array that holds the surface labels",
+           {.meaning = "array of triangles, or of points, that holds the surface labels",
             .absent = "the first of the usual names: surface, label, tag, physical (Gmsh), …",
             .used_with = "file"})
+      .key("region", &Mesh::region,
+           {.range = {0, 1e9},
+            .meaning = "tets of the mesh file that are the wall: numbers of their region array, or names of "
+                       "physical volumes",
+            .absent = "all tets",
+            .used_with = "file"})
+      .key("region_array", &Mesh::region_array,
+           {.meaning = "array of tets that holds their regions",
+            .absent = "the first of the usual names: region, material, tag, physical, …",
+            .used_with = "region"})
       .key("endo_label", &Mesh::endo_label, surface_label("endocardium (of the left ventricle)", "1"))
       .key("epi_label", &Mesh::epi_label, surface_label("epicardium (outer side)", "2"))
       .key("base_label", &Mesh::base_label, surface_label("base (valve plane)", "3"))

@@ -43,6 +43,8 @@ void check_mesh(const Mesh& mesh, const Place& place) {
     fail(place, "mesh.length_unit",
          "missing; expected the length unit of " + *mesh.file + ": one of \"mm\", \"cm\", \"m\"");
   }
+  if (mesh.surface_file && mesh.surface_files)
+    fail(place, "mesh.surface_files", "found beside mesh.surface_file, expected one of them");
   std::set<std::variant<int, std::string>> seen;
   for (const auto& labels : {mesh.endo_label, mesh.epi_label, mesh.base_label, mesh.rv_endo_label})
     for (const auto& label : labels.value_or(Labels{}))

@@ -26,8 +26,9 @@ struct Mesh {
   std::optional<Shape> shape;
   std::optional<double> size_mm;  ///< edge length of a generated mesh; absent: the shape's own
   std::optional<LengthUnit> length_unit;
-  std::optional<std::string> surface_file, label_array;
-  std::optional<Labels> endo_label, epi_label, base_label, rv_endo_label;
+  std::optional<std::string> surface_file, label_array, region_array;
+  std::optional<std::vector<std::string>> surface_files;  ///< NAME=FILE, one surface each
+  std::optional<Labels> endo_label, epi_label, base_label, rv_endo_label, region;
 };
 
 enum class Scheme { aha17, aha29 };

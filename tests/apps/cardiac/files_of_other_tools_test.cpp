@@ -344,6 +344,31 @@ TEST_P(FilesOfOtherTools, ComeToABeatOrToAReason) {
   EXPECT_THAT(plan.out, Not(IsEmpty()));
 }
 
+TEST(FilesInAProtocol, RegionsAndFilesOfOneSurfaceEach) {
+  const TemporaryFolder folder;
+  const fs::path& at = folder.path;
+  write_gmsh_2(at / "blood.msh", with_blood(), false);
+  with_surfaces("endo.vtp", "epi.vtp", "base.vtp")(at / "mesh.vtu");
+  const auto plan = [&](const std::string& settings) {
+    return run_program("run " PROJECT_DIR "/protocols/healthy_lv.toml --dry-run --set mesh.file=" +
+                       (at / settings).string());
+  };
+  const ProgramRun blood = plan("blood.msh --set mesh.region=myocardium");
+  EXPECT_EQ(blood.status, 0) << blood.err;
+  EXPECT_THAT(blood.out + blood.err, HasSubstr("region 1 \"myocardium\""));
+  const ProgramRun all = plan("blood.msh");
+  EXPECT_EQ(all.status, 2);
+  EXPECT_THAT(all.err, HasSubstr("mesh.region"));
+  const std::string surfaces = "mesh.vtu --set 'mesh.surface_files=[\"endo=" + (at / "endo.vtp").string() +
+                               "\", \"epi=" + (at / "epi.vtp").string() + "\"]'";
+  const ProgramRun two = plan(surfaces);
+  EXPECT_EQ(two.status, 0) << two.err;
+  EXPECT_THAT(two.out + two.err, HasSubstr("the rest of the boundary is base"));
+  const ProgramRun both = plan(surfaces + " --set mesh.surface_file=" + (at / "endo.vtp").string());
+  EXPECT_EQ(both.status, 2);
+  EXPECT_THAT(both.err, HasSubstr("mesh.surface_files"));
+}
+
 const auto name_of = [](const auto& file) { return file.param.name; };
 INSTANTIATE_TEST_SUITE_P(Tetrahedra, FilesOfOtherTools, testing::ValuesIn(tetrahedra()), name_of);
 INSTANTIATE_TEST_SUITE_P(Surfaces, FilesOfOtherTools, testing::ValuesIn(surfaces()), name_of);
