@@ -57,8 +57,12 @@ std::vector<Entry> from_shell(std::vector<Entry> overrides, const std::filesyste
     if (entry.value.is_string())
       entry.value = from_directory(entry.value.get<std::string>(), directory);
     else if (entry.value.is_array())
-      for (Json& one : entry.value)
-        if (one.is_string()) one = from_directory(one.get<std::string>(), directory);
+      for (Json& one : entry.value) {
+        if (!one.is_string()) continue;
+        const auto word = one.get<std::string>();  // FILE or NAME=FILE
+        const std::string name = word.substr(0, word.find('=') == std::string::npos ? 0 : word.find('=') + 1);
+        one = name + from_directory(word.substr(name.size()), directory);
+      }
   }
   return overrides;
 }
