@@ -23,13 +23,21 @@ bool finite(std::initializer_list<double> values) {
 }
 
 bool finite(const BeatResult& r) {
-  const auto sample = [](const CavitySample& s) { return finite({s.time_ms, s.volume_mL, s.pressure_mmHg}); };
+  // Without [cavities] there is no volume at all.
+  const auto sample = [](bool of_cavity) {
+    return [of_cavity](const CavitySample& s) {
+      return finite({s.time_ms, s.pressure_mmHg}) && (std::isfinite(s.volume_mL) || !of_cavity);
+    };
+  };
   const auto strain = [](const SegmentStrain& s) {
     return finite(
         {s.longitudinal, s.circumferential, s.radial, s.shear_lc, s.shear_lr, s.shear_cr, s.volume_ratio});
   };
   const auto ventricle = [&](const VentricleSummary& v) {
-    return std::ranges::all_of(v.samples, sample) &&
+    const bool of_cavity = r.has_beat || std::ranges::any_of(v.samples, [](const CavitySample& s) {
+                             return std::isfinite(s.volume_mL);
+                           });
+    return std::ranges::all_of(v.samples, sample(of_cavity)) &&
            (!r.has_beat || finite({v.edv_mL, v.esv_mL, v.ef_percent, v.peak_pressure_mmHg, v.edp_mmHg}));
   };
   return finite({r.min_det_F, r.max_det_F, r.strain.gls_percent, r.strain.gcs_percent, r.strain.grs_percent,

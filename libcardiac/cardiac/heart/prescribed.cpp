@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <cardiac/core/units.hpp>
 #include <cardiac/heart/beat_instants.hpp>
@@ -15,7 +16,8 @@ namespace {
 
 HeartState state_of(const Ventricle& ventricle, double t, const Vector& c,
                     const std::array<double, 2>& pressures_kPa) {
-  HeartState state{t, c, ventricle.cavity ? ventricle.cavity_volume(c) : 0.0, pressures_kPa[0], 0};
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();  // a wall without a cavity has no volume
+  HeartState state{t, c, ventricle.cavity ? ventricle.cavity_volume(c) : kNone, pressures_kPa[0], 0};
   if (!ventricle.right_cavity) return state;
   state.right_volume_mm3 = ventricle.right_cavity->evaluate({c}).value;
   state.right_pressure_kPa = pressures_kPa[1];

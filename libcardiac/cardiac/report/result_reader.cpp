@@ -105,7 +105,8 @@ void read_cavities(const fs::path& file, BeatResult& result) {
   for (size_t row = 0; row < table.rows(); ++row) {
     const auto v = std::ranges::find(result.ventricles, table.text(row, ventricle), &VentricleSummary::name);
     if (v == result.ventricles.end()) table.fail(row, ventricle, "a ventricle that summary.json has");
-    const auto p = std::ranges::find(kPhases, table.text(row, phase), phase_name);
+    const auto p = result.has_beat ? std::ranges::find(kPhases, table.text(row, phase), phase_name)
+                                   : kPhases.begin();  // without a beat there are none
     if (p == kPhases.end())
       table.fail(row, phase, "filling, isovolumetric_contraction, ejection or isovolumetric_relaxation");
     v->samples.push_back(

@@ -171,7 +171,7 @@ std::string cavity_table(const BeatResult& result) {
     for (const CavitySample& s : ventricle.samples) {
       text += number_text(s.time_ms) + "," + quoted(ventricle.name);
       append(text, {s.volume_mL, s.pressure_mmHg});
-      text += "," + phase_name(s.phase) + "\n";
+      text += "," + (result.has_beat ? phase_name(s.phase) : "") + "\n";
     }
   }
   return text;

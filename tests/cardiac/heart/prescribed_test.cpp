@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <cardiac/core/units.hpp>
+#include <cardiac/heart/plausibility.hpp>
 #include <cardiac/heart/verification.hpp>
 #include <cardiac/strain/segment_strain.hpp>
 #include <polyaffine/kinematics/lagrange.hpp>
@@ -284,6 +285,9 @@ output = {interval_ms = 50}
   EXPECT_EQ(run.key.es_is, "end of contraction");
   EXPECT_NEAR(run.key.es.time_ms - run.key.ed.time_ms, 324, 10);
   EXPECT_LT(run.result.strain.gcs_percent, -3);
+  // No cavity, no volume: an empty cell, not zero, and nothing absurd.
+  EXPECT_TRUE(std::isnan(run.result.ventricles[0].samples.back().volume_mL));
+  EXPECT_TRUE(absurdities(run.result).empty());
 }
 
 }  // namespace

@@ -50,6 +50,9 @@ TEST(Tables, HaveTheHeadersAndRowsOfTheInterface) {
   EXPECT_EQ(lines(cavity), 1 + 161);
   for (const char* phase : {",filling\n", ",ejection\n", ",isovolumetric_relaxation\n"})
     EXPECT_THAT(cavity, HasSubstr(phase));
+  BeatResult loading = r;
+  loading.has_beat = false;
+  EXPECT_THAT(cavity_table(loading), HasSubstr("\n0,lv,121.4,8.3,\n"));  // without a beat no phases
   EXPECT_EQ(lines(peaks_table(r)), 1 + 17);
   EXPECT_THAT(peaks_table(r), StartsWith("segment,name,peak_longitudinal,peak_longitudinal_time_ms,"));
 }
