@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
@@ -114,7 +115,7 @@ std::string seconds_text(double seconds) {
 void print_result(const BeatResult& result, double verification_s, const std::filesystem::path& out) {
   std::cout << std::fixed << std::setprecision(1);
   for (const VentricleSummary& v : result.ventricles) {
-    if (!result.has_beat && !v.samples.empty())
+    if (!result.has_beat && !v.samples.empty() && std::isfinite(v.samples.back().volume_mL))
       std::cout << v.name << ": volume " << v.samples.back().volume_mL << " mL at "
                 << v.samples.back().pressure_mmHg << " mmHg\n";
     if (!result.has_beat || !result.completed) continue;

@@ -141,10 +141,13 @@ std::string unclosed_warning(const HeartPath& path, int volumes, const Protocol&
   const protocol::Time& time = protocol.time;
   std::ostringstream out;
   out << "the pressure-volume loop did not close to " << time.limit_cycle_tolerance_percent
-      << " % (time.limit_cycle_tolerance_percent) in " << path.beats << " beats: the last is ";
+      << " % (time.limit_cycle_tolerance_percent) in " << path.beats
+      << (path.beats == 1 ? " beat: " : " beats: ");
   if (path.cycle.size() > 1)
-    out << "about " << std::setprecision(2) << distance_percent(path, volumes, protocol) << " % ";
-  out << "from the one that would repeat itself; ";
+    out << "the last is about " << std::setprecision(2) << distance_percent(path, volumes, protocol)
+        << " % from the one that would repeat itself; ";
+  else
+    out << "one beat does not tell how far it is from the one that would repeat itself; ";
   if (is_noise(path.cycle, volumes))
     out << "from beat to beat this is noise of the time integration and comes no nearer: lower "
            "time.relative_tolerance ("

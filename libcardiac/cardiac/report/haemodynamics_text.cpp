@@ -18,7 +18,8 @@ std::vector<std::string> haemodynamics_lines(const VentricleSummary& v) {
       " mmHg, mean " + display_text(h.arterial_mean_mmHg, 0) + " mmHg, stroke work " +
       display_text(h.stroke_work_mJ, 0) + " mJ, dP/dt " + display_text(h.dp_dt_max_mmHg_per_s, 0) + " and " +
       display_text(h.dp_dt_min_mmHg_per_s, 0) + " mmHg/s"};
-  const double negligible_mL = 0.01 * std::abs(v.sv_mL);
+  // A part of the stroke, and what one decimal of a millilitre shows.
+  const double negligible_mL = std::max(0.01 * std::abs(v.sv_mL), 0.05);
   for (const ValveVolumes& valve : h.valves) {
     if (valve.regurgitant_mL <= negligible_mL) continue;
     std::string name = valve.name;
