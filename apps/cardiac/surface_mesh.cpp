@@ -7,7 +7,9 @@
 #include <set>
 #include <sstream>
 
+#include <cardiac/anatomy/bare_ring.hpp>
 #include <cardiac/anatomy/check_surfaces.hpp>
+#include <cardiac/anatomy/recognise_surfaces.hpp>
 #include <cardiac/anatomy/triangle_labels.hpp>
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/mesh/surface.hpp>
@@ -73,8 +75,15 @@ TriangleLabels prepare(polyaffine::MeshData& data, const HeartMeshOptions& optio
         Eigen::Map<const Eigen::RowVectorXi>(labels.labels.data(), data.triangles.cols()).cast<double>();
   polyaffine::make_closed_surface(data);
   if (!labels.array.empty()) labels.labels = polyaffine::labelled_surface(data, kField).labels;
-  if (!labels.known) return labels;
   try {
+    if (!labels.base_missing.empty()) {
+      check_bare_rings(data.points, data.triangles, labels.labels);
+      throw InputError(labels.base_missing);
+    }
+    if (!labels.known) {
+      check_tapered_rims(data.points, data.triangles);
+      return labels;
+    }
     check_heart_surfaces(data.points, data.triangles, labels.labels);
   } catch (const InputError& error) {
     throw InputError(data.source.string() + ": " + error.what());

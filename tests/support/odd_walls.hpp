@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <vector>
 
 #include <cardiac/anatomy/idealised.hpp>
@@ -68,6 +69,48 @@ inline polyaffine::TetMesh oblique_base() {
     const double height = (x.z() + shape.endo_long_mm) / (shape.base_z_mm + shape.endo_long_mm);
     return polyaffine::Vec3(x.x(), x.y(), x.z() + tangent * x.x() * std::clamp(height, 0.0, 1.0));
   });
+}
+
+/// A ventricle without a base: over the last `taper_mm` below it the wall tapers towards its middle
+/// surface, and endocardium and epicardium meet in the ring, a circle about the z axis at its height.
+inline polyaffine::TetMesh tapered_to_ring(double taper_mm, const TruncatedEllipsoid& shape = human_lv()) {
+  constexpr StructuredCells kCells{14, 24, 2};
+  const polyaffine::TetMesh whole = structured_ellipsoid(shape, kCells).mesh;
+  polyaffine::Points points = whole.points();
+  const int layer = 1 + kCells.longitudinal * kCells.around, ring = layer - kCells.around;
+  const auto joined = [&](int p) { return p % layer < ring ? p : p % layer + kCells.through / 2 * layer; };
+  for (int p = 0; p < static_cast<int>(points.cols()); ++p) {
+    const polyaffine::Vec3 x = whole.points().col(p), middle = whole.points().col(p % layer + layer);
+    const double share = p % layer < ring ? std::min(1.0, (shape.base_z_mm - middle.z()) / taper_mm) : 0.0;
+    points.col(p) = middle + share * (x - middle);
+  }
+  // What has two corners in one place has gone.
+  const auto kept = [&](const auto& cells) {
+    std::vector<int> out;
+    for (Eigen::Index c = 0; c < cells.cols(); ++c) {
+      std::set<int> corners;
+      for (const int p : cells.col(c)) corners.insert(joined(p));
+      if (std::ssize(corners) == cells.rows()) out.push_back(static_cast<int>(c));
+    }
+    return out;
+  };
+  polyaffine::Tets tets = whole.tets()(Eigen::all, kept(whole.tets()));
+  polyaffine::LabelledTriangles surface;
+  const std::vector<int> faces = kept(whole.boundary());
+  surface.triangles = whole.boundary()(Eigen::all, faces);
+  for (const int f : faces) surface.labels.push_back(whole.boundary_labels()[f]);
+  std::vector<int> number(points.cols(), -1), used;
+  const auto renumber = [&](int& p) {
+    int& at = number[joined(p)];
+    if (at < 0) {
+      at = static_cast<int>(used.size());
+      used.push_back(joined(p));
+    }
+    p = at;
+  };
+  for (int& p : tets.reshaped()) renumber(p);
+  for (int& p : surface.triangles.reshaped()) renumber(p);
+  return {points(Eigen::all, used), tets, {}, surface};
 }
 
 }  // namespace cardiac::odd_walls

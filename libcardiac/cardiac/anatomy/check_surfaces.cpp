@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include <cardiac/anatomy/bare_ring.hpp>
 #include <cardiac/anatomy/idealised.hpp>
 #include <cardiac/core/units.hpp>
 #include <polyaffine/core/error.hpp>
@@ -107,6 +108,7 @@ void check_heart_surfaces(const Points& points, const Triangles& boundary, const
     fail_contradiction(kEpicardium, "does not surround the cavities: found " + number(outside / mm3_per_mL) +
                                         " mL within it, expected more than their " +
                                         number(cavities / mm3_per_mL));
+  check_bare_rings(points, boundary, labels);
   for (const int label : endocardia) check_rims(heart, label);
 }
 

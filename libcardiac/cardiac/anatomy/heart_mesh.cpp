@@ -5,6 +5,7 @@
 #include <cmath>
 #include <sstream>
 
+#include <cardiac/anatomy/bare_ring.hpp>
 #include <cardiac/anatomy/check_surfaces.hpp>
 #include <cardiac/anatomy/idealised.hpp>
 #include <cardiac/anatomy/recognise_surfaces.hpp>
@@ -64,6 +65,10 @@ std::vector<int> canonical(const TetMesh& mesh, const TriangleLabels& given, boo
   std::vector<int> out = mesh.boundary_labels();
   if (given.known) {
     check_on_boundary(mesh, given);
+    if (!given.base_missing.empty()) {
+      check_bare_rings(mesh.points(), mesh.boundary(), out);
+      throw InputError(given.base_missing);
+    }
     if (rest_is_base) std::ranges::replace(out, TetMesh::kUnlabelled, kBase);
     return out;
   }

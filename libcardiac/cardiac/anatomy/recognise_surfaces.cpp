@@ -8,6 +8,7 @@
 #include <sstream>
 #include <tuple>
 
+#include <cardiac/anatomy/bare_ring.hpp>
 #include <cardiac/anatomy/idealised.hpp>
 #include <cardiac/core/units.hpp>
 #include <polyaffine/core/error.hpp>
@@ -20,6 +21,7 @@ namespace {
 
 using polyaffine::InputError;
 using polyaffine::Mat3;
+using polyaffine::Points;
 using polyaffine::TetMesh;
 using polyaffine::Triangles;
 using polyaffine::Vector;
@@ -29,6 +31,8 @@ constexpr int kRays = 48, kMostProbes = 20000;
 constexpr double kEnclosed = 0.6, kFree = 0.2;       // share of rays that meet the wall again
 constexpr double kFacesUp = 0.6, kFacesAside = 0.3;  // cosine between normal and direction of the opening
 constexpr double kPocket = 0.05;                     // of the largest cavity's area: too small for a cavity
+constexpr double kTapered = -0.26;                   // cosine between normals of faces that meet at 75°
+constexpr double kSmooth = 0.7;                      // of faces that bend by 45°: less is no edge of a base
 
 struct Surface {
   Points centre, normal;  ///< 3 × triangles, normals of unit length
@@ -36,18 +40,18 @@ struct Surface {
   Triangles across;
 };
 
-Surface describe(const TetMesh& mesh) {
+Surface describe(const Points& points, const Triangles& triangles) {
   Surface s;
-  const Eigen::Index n = mesh.boundary().cols();
+  const Eigen::Index n = triangles.cols();
   s.centre.resize(3, n);
   s.normal.resize(3, n);
-  s.area = polyaffine::triangle_areas(mesh.points(), mesh.boundary());
+  s.area = polyaffine::triangle_areas(points, triangles);
   for (Eigen::Index f = 0; f < n; ++f) {
-    const Mat3 x = mesh.points()(Eigen::all, mesh.boundary().col(f));
+    const Mat3 x = points(Eigen::all, triangles.col(f));
     s.centre.col(f) = x.rowwise().mean();
     s.normal.col(f) = (x.col(1) - x.col(0)).cross(x.col(2) - x.col(0)).normalized();
   }
-  s.across = polyaffine::triangle_adjacency(mesh.boundary()).across;
+  s.across = polyaffine::triangle_adjacency(triangles).across;
   return s;
 }
 
@@ -88,8 +92,8 @@ std::vector<int> watershed(const Surface& s, std::vector<int> label) {
   return label;
 }
 
-std::vector<int> inside_or_outside(const TetMesh& mesh, const Surface& s) {
-  const polyaffine::TriangleTree tree(mesh.points(), mesh.boundary());
+std::vector<int> inside_or_outside(const Points& points, const Triangles& triangles, const Surface& s) {
+  const polyaffine::TriangleTree tree(points, triangles);
   const auto size = static_cast<int>(s.area.size());
   const int step = 1 + size / kMostProbes;
   std::vector<int> seeds(size, kUnknown);
@@ -189,6 +193,44 @@ std::vector<int> divide_outside(const Surface& s, const std::vector<std::vector<
   return label;
 }
 
+/// The rims of cavities (inside kInside, kOutside else) at which the wall tapers to an edge.
+void check_rims(const Points& points, const Triangles& triangles, const Surface& s,
+                const std::vector<std::vector<int>>& found, const std::vector<int>& inside) {
+  const auto part = polyaffine::connected_parts(s.across, [&](int f, int k) {
+    const int n = s.across(k, f);
+    return inside[f] == inside[n] && s.normal.col(f).dot(s.normal.col(n)) > kSmooth;
+  });
+  std::map<int, double> outside;
+  for (std::size_t f = 0; f < part.size(); ++f)
+    if (inside[f] == kOutside) outside[part[f]] += s.area[static_cast<Eigen::Index>(f)];
+  if (outside.empty()) return;
+  const int epicardium = std::ranges::max_element(outside, {}, [](const auto& p) { return p.second; })->first;
+  RingEdges bare;
+  for (const auto& faces : found) {
+    double rim = 0, tapered = 0;
+    RingEdges edges;
+    for (const int f : faces)
+      for (int k = 0; k < 3; ++k) {
+        const int n = s.across(k, f), a = triangles(k, f), b = triangles((k + 1) % 3, f);
+        if (inside[n] == kInside) continue;
+        const double length = (points.col(a) - points.col(b)).norm();
+        rim += length;
+        if (part[n] != epicardium || s.normal.col(f).dot(s.normal.col(n)) > kTapered) continue;
+        tapered += length;
+        edges.push_back({a, b});
+      }
+    if (tapered > rim / 2) bare.insert(bare.end(), edges.begin(), edges.end());
+  }
+  if (!bare.empty()) throw InputError(bare_ring_text(points, bare));
+}
+
+std::vector<int> inside_of(std::size_t size, const std::vector<std::vector<int>>& found) {
+  std::vector<int> out(size, kOutside);
+  for (const auto& faces : found)
+    for (const int f : faces) out[f] = kInside;
+  return out;
+}
+
 [[noreturn]] void fail(const std::string& found, const std::string& expected) {
   throw InputError("mesh: the surfaces have no labels and could not be recognised from the shape: found " +
                    found + ", expected " + expected +
@@ -198,17 +240,16 @@ std::vector<int> divide_outside(const Surface& s, const std::vector<std::vector<
 }  // namespace
 
 RecognisedSurfaces recognise_surfaces(const TetMesh& mesh) {
-  const Surface s = describe(mesh);
+  const Surface s = describe(mesh.points(), mesh.boundary());
   RecognisedSurfaces out;
-  const std::vector<int> first = inside_or_outside(mesh, s);
+  const std::vector<int> first = inside_or_outside(mesh.points(), mesh.boundary(), s);
   auto found = cavities(s, first, kInside);
   if (found.empty())
     fail("no cavity (nothing that the wall surrounds)", "one or two ventricles open at the base");
   if (found.size() > 2) fail(std::to_string(found.size()) + " cavities", "one or two ventricles");
-  std::vector<int> inside(first.size(), kOutside);
-  for (const auto& faces : found)
-    for (const int f : faces) inside[f] = kInside;
+  const std::vector<int> inside = inside_of(first.size(), found);
   if (std::ranges::count(inside, kOutside) == 0) fail("only a cavity", "a wall with an outside");
+  check_rims(mesh.points(), mesh.boundary(), s, found, inside);
   order_cavities(mesh, s, found, out.notes);
   out.labels = divide_outside(s, found, inside);
   if (std::ranges::count(out.labels, kBase) == 0)
@@ -224,9 +265,16 @@ RecognisedSurfaces recognise_surfaces(const TetMesh& mesh) {
   return out;
 }
 
+void check_tapered_rims(const Points& points, const Triangles& boundary) {
+  const Surface s = describe(points, boundary);
+  const std::vector<int> first = inside_or_outside(points, boundary, s);
+  const auto found = cavities(s, first, kInside);
+  check_rims(points, boundary, s, found, inside_of(first.size(), found));
+}
+
 void split_cavities(const TetMesh& mesh, std::vector<int>& labels, std::vector<std::string>& notes) {
   if (std::ranges::count(labels, kRvEndocardium) > 0) return;
-  const Surface s = describe(mesh);
+  const Surface s = describe(mesh.points(), mesh.boundary());
   auto found = cavities(s, labels, kEndocardium);
   if (found.size() != 2) return;
   order_cavities(mesh, s, found, notes);

@@ -25,8 +25,15 @@ struct RecognisedSurfaces {
 /// - Base: the outside that is reached from the rims over triangles that face the opening; a second watershed
 ///   divides it from the epicardium.
 /// - Of two cavities the left ventricle's is the rounder one: larger V / A^1.5.
-/// Throws InputError, saying what was found, when there is no cavity, more than two, or no base.
+/// Throws InputError, saying what was found, when there is no cavity, more than two, or no base, and as
+/// check_tapered_rims.
 RecognisedSurfaces recognise_surfaces(const polyaffine::TetMesh& mesh);
+
+/// Throws InputError (bare_ring_text) when the wall tapers to an edge at the rim of a cavity and has no base
+/// there: along most of the rim inside and outside meet at less than 75°, and the outside goes on from there
+/// to the epicardium without a second edge. Takes a closed outward surface, points in mm; a shape without
+/// cavities passes.
+void check_tapered_rims(const polyaffine::Points& points, const polyaffine::Triangles& boundary);
 
 /// Where the boundary with the label kEndocardium falls into two cavities, the less round one becomes
 /// kRvEndocardium; a note says so.

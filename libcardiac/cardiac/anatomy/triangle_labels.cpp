@@ -85,7 +85,14 @@ TriangleLabels read_triangle_labels(MeshData& data, const std::string& label_arr
   numbers.erase(polyaffine::TetMesh::kUnlabelled);
   std::map<int, int> meaning;
   try {
-    meaning = heart_labels(numbers, names, map);
+    SurfaceLabelMap without_base = map;
+    without_base.rest_is_base = true;
+    meaning = heart_labels(numbers, names, without_base);
+    try {
+      meaning = heart_labels(numbers, names, map);
+    } catch (const polyaffine::InputError& error) {
+      out.base_missing = error.what();
+    }
   } catch (const polyaffine::InputError& error) {
     throw polyaffine::InputError(data.source.string() + ": " + error.what());
   }

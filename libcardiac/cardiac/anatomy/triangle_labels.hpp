@@ -11,6 +11,7 @@ struct TriangleLabels {
   std::vector<int> labels;  ///< of each triangle; 0 is none
   bool known = false;       ///< labels are kEndocardium, kEpicardium, kBase, kRvEndocardium; else the file's
   std::set<int> optional;   ///< labels whose triangles may be no faces of the wall (polyaffine::SurfaceData)
+  std::string base_missing{};      ///< what is wrong when there are labels of all surfaces but the base
   std::vector<std::string> notes;  ///< what was left out
 };
 
@@ -19,7 +20,8 @@ struct TriangleLabels {
 /// epicardium 2, left endocardium 3 and right endocardium 4) and gives them their meaning by heart_labels.
 /// Triangles of labels with no meaning become unlabelled, with a note. `data` gains the array of triangles
 /// that is made from one of points, and for a mesh without triangles those of its boundary.
-/// Throws InputError, naming the file, when an array that was named is not there, and as heart_labels.
+/// Throws InputError, naming the file, when an array that was named is not there, and as heart_labels; but a
+/// missing base, for which the shape may show a reason, is told in base_missing.
 TriangleLabels read_triangle_labels(polyaffine::MeshData& data, const std::string& label_array,
                                     const SurfaceLabelMap& map);
 
