@@ -180,10 +180,12 @@ Table reduction_table() {
       .key("local_bulk_modulus_kPa", &Reduction::local_bulk_modulus_kPa,
            {.unit = "kPa",
             .range = {0, 1e6},
-            .meaning = "part of the bulk modulus that acts at every integration point beside the pressure "
-                       "space; one to two shear moduli keep local volumes in check. Not given, it is 20 with "
-                       "[contraction] (a tenth of tissue.bulk_modulus_kPa at most), whose tension stiffens "
-                       "the wall; 60 where the wall is crushed (min_det_F)",
+            .meaning =
+                "part of the bulk modulus that acts at every integration point beside the pressure "
+                "space; one to two shear moduli keep local volumes in check. Not given, it is 20 for one "
+                "ventricle with [contraction] (a tenth of tissue.bulk_modulus_kPa at most), whose tension "
+                "stiffens "
+                "the wall; 60 where the wall is crushed (min_det_F)",
             .source = "measured: two shear moduli of soft muscle (tissue.mu_kPa)",
             .also = {reduced(), separate_volume(), mixed()}})
       .key("axes", &Reduction::axes,

@@ -227,11 +227,12 @@ void fill_scheme(Protocol& protocol) {
   if (!scheme) scheme = protocol.mesh.shape == Shape::human_biventricle ? Scheme::aha29 : Scheme::aha17;
 }
 
-// Tension stiffens muscle, several times over the passive wall.
+// Tension stiffens muscle, several times over the passive wall. With two ventricles more is worse: the coarse
+// one is 11.7 % of displacement off in filling and 13.2 % in systole with 6 kPa, 13.6 % both with 20.
 void raise_local_bulk_modulus(Protocol& protocol) {
   constexpr double kContracting_kPa = 20, kShare = 0.1;
   double& local = protocol.reduction.local_bulk_modulus_kPa;
-  if (protocol.contraction)
+  if (protocol.contraction && protocol.anatomy.scheme == Scheme::aha17)
     local = std::max(local, std::min(kContracting_kPa, kShare * protocol.tissue.bulk_modulus_kPa));
 }
 

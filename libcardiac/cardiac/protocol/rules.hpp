@@ -19,7 +19,8 @@ void fill_scheme(Protocol& protocol);
 /// differ.
 void fill_presets(Protocol& protocol);
 
-/// The local bulk modulus of a protocol that does not name one: more where muscle contracts.
+/// The local bulk modulus of a protocol that does not name one: more where the muscle of one ventricle
+/// contracts.
 void raise_local_bulk_modulus(Protocol& protocol);
 
 /// Adds warnings about values that are allowed and lead beyond what the reduced model can tell.

@@ -59,6 +59,7 @@ TEST(Rules, ContractionRaisesALocalBulkModulusThatIsNotGiven) {
   EXPECT_EQ(local(kBeat, {}), 20);
   EXPECT_EQ(local(kBeat, {"tissue.bulk_modulus_kPa=100"}), 10);
   EXPECT_EQ(local(kBeat, {"reduction.local_bulk_modulus_kPa=6"}), 6);
+  EXPECT_EQ(local(kBeat, {"mesh.shape=human_biventricle"}), 6);
 }
 
 TEST(Rules, ContrastsBeyondTheReducedModelAreWarnedOf) {
