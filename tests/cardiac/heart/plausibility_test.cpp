@@ -18,7 +18,10 @@ BeatResult healthy() {
   r.completed = r.has_beat = true;
   r.segments = {{1, "basal anterior", 94, {}}};
   r.min_det_F = 0.8;
-  r.instants = {{0, {SegmentStrain{}}, {}}, {300, {SegmentStrain{-0.15, -0.18, 0.4, 0, 0, 0, 0.99}}, {}}};
+  r.instants.resize(2);
+  r.instants[0].strain = {SegmentStrain{}};
+  r.instants[1].time_ms = 300;
+  r.instants[1].strain = {SegmentStrain{-0.15, -0.18, 0.4, 0, 0, 0, 0.99}};
   VentricleSummary lv{"lv", 119, 51, 68, 57, 120, 10, 100, 400, {{0, 119, 10}, {400, 51, 90}}};
   r.ventricles = {lv};
   return r;

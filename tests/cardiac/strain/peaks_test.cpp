@@ -14,7 +14,9 @@ std::vector<Instant> beat_of(Curve curve, double step = 1) {
   std::vector<Instant> instants;
   for (double t = 0; t <= 800; t += step) {
     const double e = curve(t);
-    instants.push_back({t, {{e, e, e, 0, 0, 0, 1}}, {}});
+    Instant& instant = instants.emplace_back();
+    instant.time_ms = t;
+    instant.strain = {{e, e, e, 0, 0, 0, 1}};
   }
   return instants;
 }

@@ -7,7 +7,8 @@
 namespace cardiac {
 namespace {
 
-const ValidationContext context{.quick = true, .out = {}, .mesh_ellipsoid = {}, .mesh_box = {}};
+const ValidationContext context{
+    .quick = true, .out = {}, .mesh_ellipsoid = {}, .mesh_box = {}, .mesh_biventricle = {}};
 
 ExtremeOutcome inflation(const ExtremeChecks& checks, const std::string& setting) {
   return checks.run("test", checks.coarse_wall(), kExtremePassive, {setting, "time.load_steps=2"});
