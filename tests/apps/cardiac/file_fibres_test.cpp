@@ -112,7 +112,7 @@ TEST_F(FileFibres, SignsLengthsAndNamesDoNotCount) {
 
 TEST_F(FileFibres, ThePlanSaysWhichFibresAreUsed) {
   const ProgramRun file = run("rule.vtu", "source = \"file\"", "--dry-run");
-  EXPECT_THAT(file.out, HasSubstr("those of rule.vtu (fibres.source = file)"));
+  EXPECT_THAT(file.out, HasSubstr("rule.vtu (fibres.source = file)"));
   const ProgramRun rule = run("rule.vtu", "", "--dry-run");
   EXPECT_THAT(rule.out, HasSubstr("by the rule helix (fibres.source = rule)"));
   EXPECT_THAT(rule.err, HasSubstr("its fibres are not used: fibres.source is rule"));

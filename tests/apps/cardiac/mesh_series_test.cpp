@@ -50,6 +50,7 @@ activation_delay_ms = 150.0
 duration_ms = 800
 load_steps = 4
 [output]
+interval_ms = 200.0
 figures = false
 )";
 

@@ -96,7 +96,7 @@ TEST(Integration, TheRightWallsFramesAreSeenToo) {
   for (const char* axes : {"heart", "cartesian"}) {
     SCOPED_TRACE(axes);
     const Band found = against_all_points(
-        "healthy_biv", {R"(mesh.file="../meshes/healthy_biv_coarse.vtu")",
+        "healthy_biv", {"mesh.file=\"" PROJECT_DIR "/meshes/healthy_biv_coarse.vtu\"",
                         std::string("reduction.axes=") + axes, R"(reduction.enrichment=["tt", "ll"])"});
     EXPECT_GT(found.low, kSoftest);
     EXPECT_LT(found.high, kStiffest);

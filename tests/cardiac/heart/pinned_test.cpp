@@ -106,7 +106,7 @@ TEST(Pinned, PassiveInflation) {
 
 TEST(Pinned, HealthyBiventricleOnTheCoarseMesh) {
   const testing::HeartRun run(
-      testing::shipped_protocol("healthy_biv", {"mesh.file=\"../meshes/healthy_biv_coarse.vtu\""}));
+      testing::shipped_protocol("healthy_biv", {"mesh.file=" PROJECT_DIR "/meshes/healthy_biv_coarse.vtu"}));
   expect_pinned("healthy_biv_coarse", run.result);
 }
 

@@ -35,7 +35,8 @@ TEST(Override, PathsStartAtTheCurrentFolder) {
   EXPECT_EQ(mesh_path(given("../b.vtu")), "../b.vtu");
   EXPECT_EQ(given("/data/b.vtu").mesh.file, "/data/b.vtu");
   EXPECT_EQ(surface_path(parsed(text, {"mesh.surface_file=\"b.vtp\""})), "b.vtp");
-  const auto files = parsed(text, {"mesh.surface_files=[\"endo=b.vtp\", \"c.vtp\"]"}).mesh.surface_files;
+  const std::string one_file = text.substr(0, text.find("surface_file")) + text.substr(text.find("[tissue]"));
+  const auto files = parsed(one_file, {"mesh.surface_files=[\"endo=b.vtp\", \"c.vtp\"]"}).mesh.surface_files;
   EXPECT_EQ(*files, (std::vector<std::string>{"endo=../b.vtp", "../c.vtp"}));
   EXPECT_EQ(mesh_path(parsed(text, {"mesh={file=\"b.vtu\", length_unit=\"mm\"}"})), "b.vtu");
 }
