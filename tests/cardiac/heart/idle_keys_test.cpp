@@ -109,14 +109,13 @@ std::vector<RunKind> kinds() {
        {"reduction"}}};
 }
 
-/// Not tried: what is read before or written after what is computed here, what must fit the mesh, what is a
-/// kind of its own, and what tells how many beats there are.
+/// Not tried: what is read before or written after what is computed here, what must fit the mesh (or needs
+/// several openings of it), what is a kind of its own, and what tells how many beats there are.
 bool elsewhere(const std::string& path) {
-  static const std::set<std::string> paths{"anatomy.scheme",     "reduction.method",
-                                           "fibres.source",      "activation.mode",
-                                           "output.tables",      "output.figures",
-                                           "output.mesh_series", "region.name",
-                                           "time.max_beats",     "time.limit_cycle_tolerance_percent"};
+  static const std::set<std::string> paths{
+      "anatomy.scheme",     "anatomy.mitral_point", "output.frames",  "reduction.method",
+      "fibres.source",      "activation.mode",      "output.tables",  "output.figures",
+      "output.mesh_series", "region.name",          "time.max_beats", "time.limit_cycle_tolerance_percent"};
   return path.starts_with("mesh.") || paths.contains(path);
 }
 
@@ -124,6 +123,9 @@ bool elsewhere(const std::string& path) {
 std::string other_value(const std::string& path, const Key& key, const Json& value, const Protocol& base) {
   static const std::map<std::string, std::string> chosen{{"anatomy.long_axis", "[0.05, 0.0, 1.0]"},
                                                          {"anatomy.anterior_direction", "[1.0, 0.0, 0.0]"},
+                                                         {"anatomy.septum_point", "[0.0, 8.0, 0.0]"},
+                                                         {"anatomy.rv_insertion_point", "[8.0, 0.0, 0.0]"},
+                                                         {"reduction.axes", "cartesian"},
                                                          {"reduction.enrichment", "[\"ll\"]"},
                                                          {"reduction.ring_nodes", "[4, 6, 8]"},
                                                          {"reduction.ring_positions", "[0.25, 0.5, 0.8]"},
