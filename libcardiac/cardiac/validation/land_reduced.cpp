@@ -50,6 +50,7 @@ epi_angle_deg = -90.0
 [activation]
 mode = "uniform"
 [contraction]
+cross_fibre_fraction = 0.0
 [cavities]
 pressure_mmHg = 112.5
 )";
