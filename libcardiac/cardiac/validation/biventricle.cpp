@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <tuple>
 
 #include <cardiac/bench/errors.hpp>
 #include <cardiac/core/units.hpp>
@@ -68,7 +69,8 @@ Vector equilibrium(const Ventricle& ventricle, const Load& load, const std::stri
   return c;
 }
 
-// Accepted errors in per cent, about twice what is reached: the reduced model is at its weakest here.
+// Accepted errors in per cent, about 1.3 times what is reached: the reduced model is at its weakest here, and
+// twice would hide a loss.
 struct Bounds {
   double displacement, left_volume, right_volume;
 };
@@ -81,9 +83,9 @@ struct Model {
 
 const std::vector<Model>& models() {
   static const std::vector<Model> list{
-      {"polyaffine fast", {"reduction.preset=fast"}, {25, 5, 5}, {25, 5, 5}},
-      {"polyaffine accurate", {"reduction.preset=accurate"}, {25, 5, 5}, {25, 5, 5}},
-      {"polyaffine fast, Cartesian axes", {"reduction.axes=cartesian"}, {25, 5, 5}, {25, 5, 5}}};
+      {"polyaffine fast", {"reduction.preset=fast"}, {15, 2, 8}, {16, 1, 3}},
+      {"polyaffine accurate", {"reduction.preset=accurate"}, {10, 1, 6}, {12.5, 1, 3}},
+      {"polyaffine fast, heart axes", {"reduction.axes=heart"}, {21, 3.6, 9}, {21, 1, 4}}};
   return list;
 }
 
@@ -153,7 +155,7 @@ void in_closed_loop(const ValidationContext& context, const Heart& heart, std::v
   const TwoSidedLoop loop = two_sided_loop(*heart.protocol({}).circulation);
   const Stroke left = stroke(path, &HeartState::volume_mm3);
   const Stroke right = stroke(path, &HeartState::right_volume_mm3);
-  add("polyaffine fast", "rv_over_lv_stroke", "1", right.volume() / left.volume(), 1, 0.02,
+  add("polyaffine fast", "rv_over_lv_stroke", "1", right.volume() / left.volume(), 1, 0.004,
       "on the limit cycle both sides eject the same");
   add("polyaffine fast", "blood_change", "1",
       blood(loop, path.steps.back()) / blood(loop, path.steps.front()) - 1, 0, 1e-8, "the loop is closed");
@@ -162,10 +164,10 @@ void in_closed_loop(const ValidationContext& context, const Heart& heart, std::v
   context.progress("one beat in full order", 0.8);
   const HeartPath first = beats(heart, {"time.max_beats=1"});
   const HeartPath full = beats(heart, {"time.max_beats=1", "reduction.method=fem"});
-  for (const auto& [name, volume] :
-       {std::pair{"lv", &HeartState::volume_mm3}, std::pair{"rv", &HeartState::right_volume_mm3}})
+  for (const auto& [name, volume, tolerance] :
+       {std::tuple{"lv", &HeartState::volume_mm3, 1.0}, {"rv", &HeartState::right_volume_mm3, 4.0}})
     add("polyaffine fast", std::string(name) + "_ef_percent_of_first_beat", "%",
-        stroke(first, volume).ef_percent(), stroke(full, volume).ef_percent(), 4, kSameMesh);
+        stroke(first, volume).ef_percent(), stroke(full, volume).ef_percent(), tolerance, kSameMesh);
 }
 
 }  // namespace
