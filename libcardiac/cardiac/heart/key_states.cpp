@@ -48,6 +48,12 @@ bool ejects(const Surroundings& around) {
   return std::ranges::find(around.by_valves, Phase::ejection) != around.by_valves.end();
 }
 
+// Whether the inlet is closed at some step: where it is and was never seen to close, it has been from the
+// beginning of the beat, as when the wall begins it in equilibrium with the pressure before the inlet.
+bool holds_back(const Surroundings& around) {
+  return ((around.pressure - around.before).array() > 0).any();
+}
+
 void set_phases(const HeartPath& path, const Surroundings& around, double period, int cavity,
                 KeyStates& out) {
   const auto& steps = path.steps;
@@ -115,7 +121,13 @@ KeyStates of_beat(const HeartPath& path, const Protocol& protocol, int cavity) {
     out.es = *at.outlet_closes;
     out.es_is = "closing of the outlet valve";
   }
-  if (!path.instants.empty()) set_phases(path, surroundings(path, protocol, cavity), period, cavity, out);
+  if (path.instants.empty()) return out;
+  const Surroundings around = surroundings(path, protocol, cavity);
+  if (!at.inlet_closes && path.contraction_begins && holds_back(around)) {
+    out.ed = *path.contraction_begins;
+    out.ed_is = "onset of contraction";
+  }
+  set_phases(path, around, period, cavity, out);
   return out;
 }
 
@@ -159,7 +171,8 @@ std::vector<std::string> valve_warnings(const HeartPath& path, const Protocol& p
   const std::string inlet = left ? "mitral" : "tricuspid", outlet = left ? "aortic" : "pulmonary";
   const CavityInstants& at = path.instants[static_cast<std::size_t>(cavity)];
   std::vector<std::string> out;
-  if (!ejects(surroundings(path, protocol, cavity)))
+  const Surroundings around = surroundings(path, protocol, cavity);
+  if (!ejects(around))
     out.push_back("the " + outlet +
                   " valve never opens: the pressure of the ventricle stays below that of the arteries");
   else if (!at.outlet_closes)
@@ -168,7 +181,7 @@ std::vector<std::string> valve_warnings(const HeartPath& path, const Protocol& p
         " valve never closes: the pressure of the arteries never exceeds that of the ventricle (a "
         "peripheral resistance or compliance too small for this heart?); end systole is the smallest "
         "volume");
-  if (!at.inlet_closes)
+  if (!at.inlet_closes && !holds_back(around))
     out.push_back(
         "the " + inlet +
         " valve never closes: the pressure of the ventricle never exceeds that before it; end diastole "

@@ -12,7 +12,8 @@ namespace cardiac {
 /// With a circulation: ED is the closing of the inlet valve or the onset of contraction, whichever comes
 /// later before the largest pressure (a leaking outlet may close the inlet long before); ES is the closing of
 /// the outlet valve; both where the pressure drop turns, found between the time steps. A ventricle whose
-/// valve never closes has its largest or smallest volume in their place. Under a prescribed pressure with
+/// valve never closes has its largest or smallest volume in their place; an inlet that is closed from the
+/// beginning of the beat leaves ED to the onset of contraction. Under a prescribed pressure with
 /// contraction: its last onset that leaves time for a whole contraction, and the smallest volume of the
 /// period that follows (where there is no cavity, the end of contraction); without contraction the first and
 /// the last state.

@@ -52,6 +52,16 @@ TEST(KeyStates, OfAHealthyBeatAreWhereItsValvesClose) {
   EXPECT_LT(std::abs(lv.isovolumetric_relaxation_change_mL), 0.3);
 }
 
+// The wall begins its first beat in equilibrium with the atrium: the valve is never seen to close.
+TEST(KeyStates, OfAFirstBeatBeginWithItsContraction) {
+  const HeartRun first = healthy_with({"time.max_beats=1"});
+  EXPECT_EQ(first.key.ed_is, "onset of contraction");
+  EXPECT_NEAR(first.key.ed.time_ms, healthy().key.ed.time_ms, 1);
+  EXPECT_NEAR(first.result.ventricles[0].edp_mmHg, 10, 0.1);  // that of the filling
+  for (const std::string& warning : first.result.warnings)
+    EXPECT_EQ(warning.find("valve never"), std::string::npos) << warning;
+}
+
 TEST(KeyStates, DoNotHangOnTheTimeSteps) {
   const HeartRun fine = healthy_with({"time.max_step_ms=3"});
   const VentricleSummary &a = healthy().result.ventricles[0], &b = fine.result.ventricles[0];
