@@ -26,8 +26,7 @@ using polyaffine::MeshData;
 namespace {
 
 std::string name_note(const std::filesystem::path& file, int surface) {
-  constexpr std::array names{"none", "endocardium", "epicardium", "base", "right endocardium"};
-  return file.filename().string() + " is the " + names.at(surface) + " by its name";
+  return file.filename().string() + " is the " + surface_title(surface) + " by its name";
 }
 
 /// Adds the triangles of a file with one label for all of them.

@@ -9,6 +9,7 @@
 
 #include <cardiac/anatomy/bare_ring.hpp>
 #include <cardiac/anatomy/idealised.hpp>
+#include <cardiac/anatomy/surface_names.hpp>
 #include <cardiac/core/units.hpp>
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/mesh/surface.hpp>
@@ -36,11 +37,6 @@ struct Labelled {
   }
 };
 
-const char* name_of(int label) {
-  constexpr std::array names{"none", "endocardium", "epicardium", "base", "right endocardium"};
-  return names.at(label);
-}
-
 std::string number(double value) {
   std::ostringstream out;
   out.precision(4);
@@ -65,7 +61,7 @@ double surrounded(const Labelled& heart, int label) {
 }
 
 [[noreturn]] void fail_contradiction(int label, const std::string& found) {
-  throw InputError(std::string("mesh: the surface labelled ") + name_of(label) + ' ' + found +
+  throw InputError(std::string("mesh: the surface labelled ") + surface_title(label) + ' ' + found +
                    "; are labels swapped?");
 }
 
@@ -90,7 +86,7 @@ void check_rims(const Labelled& heart, int label) {
     for (const int p : rim)
       if (!base.contains(p)) {
         const Vec3 x = heart.points.col(p);
-        throw InputError("open cavity: found a rim of the " + std::string(name_of(label)) +
+        throw InputError("open cavity: found a rim of the " + std::string(surface_title(label)) +
                          " off the base at (" + number(x.x()) + ", " + number(x.y()) + ", " + number(x.z()) +
                          ") mm, expected the endocardium to reach the base all round");
       }

@@ -21,11 +21,6 @@ using polyaffine::InputError;
 using polyaffine::TetMesh;
 using Strings = std::vector<std::string>;
 
-const char* name_of(int label) {
-  constexpr std::array names{"none", "endocardium", "epicardium", "base", "right endocardium"};
-  return names.at(label);
-}
-
 std::string number(double value) {
   std::ostringstream out;
   out.precision(4);
@@ -44,7 +39,7 @@ std::map<int, int> by_shape(const TetMesh& mesh, const std::vector<int>& recogni
   std::string text;
   for (const auto& [n, shares] : votes) {
     out[n] = std::ranges::max_element(shares, {}, [](const auto& share) { return share.second; })->first;
-    text += (text.empty() ? "" : ", ") + std::to_string(n) + " is " + name_of(out[n]);
+    text += (text.empty() ? "" : ", ") + std::to_string(n) + " is " + surface_title(out[n]);
   }
   notes.push_back("labels whose numbers are not known take their meaning from the shape: " + text);
   return out;
@@ -55,7 +50,7 @@ void check_on_boundary(const TetMesh& mesh, const TriangleLabels& given) {
   for (const int label : std::set<int>(given.labels.begin(), given.labels.end()))
     if (label != TetMesh::kUnlabelled && !given.optional.contains(label) && mesh.surface({label}).cols() == 0)
       throw InputError("mesh: found the " + std::to_string(std::ranges::count(given.labels, label)) +
-                       " triangles of the surface " + name_of(label) +
+                       " triangles of the surface " + surface_title(label) +
                        " between two tets, expected them on the boundary of the wall");
 }
 

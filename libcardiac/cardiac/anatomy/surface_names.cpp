@@ -64,6 +64,11 @@ std::vector<int> matching_labels(const SurfaceLabel& label, const std::set<int>&
   return out;
 }
 
+const char* surface_title(int label) {
+  constexpr std::array titles{"none", "endocardium", "epicardium", "base", "right endocardium"};
+  return titles.at(label);
+}
+
 std::string label_text(const SurfaceLabel& label) {
   const auto* name = std::get_if<std::string>(&label);
   return name == nullptr ? std::to_string(std::get<int>(label)) : '"' + *name + '"';

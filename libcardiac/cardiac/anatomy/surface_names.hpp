@@ -26,6 +26,9 @@ std::vector<int> matching_labels(const SurfaceLabel& label, const std::set<int>&
 /// A label as a message tells it: 7, "endo".
 std::string label_text(const SurfaceLabel& label);
 
+/// The surface with a label (kEndocardium, …) in words: "right endocardium".
+const char* surface_title(int label);
+
 /// The label (kEndocardium, kEpicardium, kBase, kRvEndocardium) behind a name in common use: lv_endo,
 /// ENDO_LV, endocardium, Epicardium, base, top, mitral valve, RV, …; none for other names.
 std::optional<int> surface_of_name(const std::string& name);
