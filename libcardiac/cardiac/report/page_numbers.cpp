@@ -123,9 +123,11 @@ std::string contour_table(const BeatResult& r) {
             table_cell(display_text(row.contours.midwall_percent, 1)) +
             table_cell(display_text(row.contours.epicardial_percent, 1)) + "</tr>\n";
   const auto thickening = [](const std::string& name, const GlobalStrain& strain) {
-    return "The " + name + " thickens by " + display_text(strain.wall_thickening_percent, 1) +
-           " % (its volume over its area), its base comes " + display_text(strain.base_excursion_mm, 1) +
-           " mm closer to the apex. ";
+    const double thicker = strain.wall_thickening_percent, closer = strain.base_excursion_mm;
+    return "The " + name + (thicker < 0 ? " thins by " : " thickens by ") +
+           display_text(std::abs(thicker), 1) + " % (its volume over its area), its base comes " +
+           display_text(std::abs(closer), 1) + (closer < 0 ? " mm farther from" : " mm closer to") +
+           " the apex. ";
   };
   return html + "</tbody></table></div>\n<p class=\"small\">" +
          thickening("wall of the left ventricle", r.strain) +
