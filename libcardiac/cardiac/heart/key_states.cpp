@@ -21,7 +21,6 @@ double pressure(const HeartState& s, int cavity) {
 
 // What lies about a cavity at each step of a path.
 struct Surroundings {
-  std::vector<CirculationModel::Side> sides;
   Vector before, pressure, capacitor;
   std::vector<Phase> by_valves;
 };
@@ -29,14 +28,13 @@ struct Surroundings {
 Surroundings surroundings(const HeartPath& path, const Protocol& protocol, int cavity) {
   const auto model = circulation_model(path.steps.front().loop.size() > 0, *protocol.circulation);
   const auto n = static_cast<Eigen::Index>(path.steps.size());
-  Surroundings out{{}, Vector(n), Vector(n), Vector(n), {}};
+  Surroundings out{Vector(n), Vector(n), Vector(n), {}};
   for (Eigen::Index k = 0; k < n; ++k) {
     const HeartState& s = path.steps[static_cast<std::size_t>(k)];
     const CirculationModel::Side side = model->side(cavity, circulation_states(s), cavity_pressures(s));
     out.before[k] = side.before_kPa;
     out.pressure[k] = pressure(s, cavity);
     out.capacitor[k] = side.capacitor_kPa;
-    out.sides.push_back(side);
   }
   out.by_valves = classify_phases(model->inlet(cavity), model->outlet_valve(cavity), out.before, out.pressure,
                                   out.capacitor);

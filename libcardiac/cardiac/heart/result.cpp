@@ -1,6 +1,5 @@
 #include "cardiac/heart/result.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <limits>
 
@@ -12,8 +11,6 @@
 
 namespace cardiac {
 
-using polyaffine::Matrix;
-using polyaffine::Points;
 using polyaffine::Vector;
 
 namespace {
