@@ -58,6 +58,7 @@ check_tidy() {
   sources '*.cpp' | xargs -0 --max-args=1 --max-procs="$(parallel_jobs)" clang-tidy -p build/release --quiet
 }
 check "clang-format" check_format
+check "layers" python3 tests/layers.py
 [[ $tidy == yes ]] && check "clang-tidy" check_tidy
 for preset in "${presets[@]}"; do
   check "tests ($preset)" ctest --preset "$preset" --parallel "$(nproc)" --no-tests=error

@@ -4,8 +4,8 @@
 #include <iostream>
 #include <memory>
 
-#include <cardiac/heart/axes_check.hpp>
-#include <cardiac/heart/volume_check.hpp>
+#include <cardiac/model/volume_check.hpp>
+#include <cardiac/reduction/axes_check.hpp>
 #include <polyaffine/core/error.hpp>
 
 #include "example_data.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <cardiac/anatomy/heart_mesh.hpp>
-#include <cardiac/heart/discretisation.hpp>
+#include <cardiac/reduction/discretisation.hpp>
 
 namespace cardiac::app {
 

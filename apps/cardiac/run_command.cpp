@@ -9,17 +9,18 @@
 #include <memory>
 #include <sstream>
 
-#include <cardiac/heart/checkpoint.hpp>
-#include <cardiac/heart/plausibility.hpp>
-#include <cardiac/heart/trained_rule.hpp>
-#include <cardiac/heart/verification.hpp>
 #include <cardiac/protocol/describe.hpp>
-#include <cardiac/protocol/plan.hpp>
 #include <cardiac/report/figures.hpp>
 #include <cardiac/report/haemodynamics_text.hpp>
 #include <cardiac/report/page.hpp>
 #include <cardiac/report/summary.hpp>
 #include <cardiac/report/tables.hpp>
+#include <cardiac/run/build_ventricle.hpp>
+#include <cardiac/run/checkpoint.hpp>
+#include <cardiac/run/plan.hpp>
+#include <cardiac/run/plausibility.hpp>
+#include <cardiac/run/verification.hpp>
+#include <cardiac/training/trained_rule.hpp>
 #include <nlohmann/json.hpp>
 #include <polyaffine/core/atomic_file.hpp>
 #include <polyaffine/core/error.hpp>

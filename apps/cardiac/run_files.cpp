@@ -1,7 +1,7 @@
 #include "run_files.hpp"
 
-#include <cardiac/heart/key_states.hpp>
-#include <cardiac/heart/vertex_displacement.hpp>
+#include <cardiac/model/vertex_displacement.hpp>
+#include <cardiac/run/key_states.hpp>
 #include <cardiac/strain/tet_gauge.hpp>
 #include <polyaffine/core/error.hpp>
 

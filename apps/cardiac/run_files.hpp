@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include <cardiac/heart/result.hpp>
+#include <cardiac/run/result.hpp>
 
 namespace cardiac::app {
 

@@ -10,14 +10,14 @@
 #include <string>
 #include <vector>
 
-#include <cardiac/anatomy/control_nodes.hpp>
 #include <cardiac/anatomy/orientation.hpp>
 #include <cardiac/anatomy/right_ventricle.hpp>
 #include <cardiac/core/units.hpp>
 #include <cardiac/fibres/fibre_difference.hpp>
 #include <cardiac/fibres/helix.hpp>
-#include <cardiac/heart/discretisation.hpp>
-#include <cardiac/heart/wall.hpp>
+#include <cardiac/model/wall.hpp>
+#include <cardiac/reduction/control_nodes.hpp>
+#include <cardiac/reduction/discretisation.hpp>
 #include <cardiac/report/segment_picture.hpp>
 #include <polyaffine/core/atomic_file.hpp>
 #include <polyaffine/core/error.hpp>

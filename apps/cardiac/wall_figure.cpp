@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 
 #include <cardiac/core/units.hpp>
-#include <cardiac/heart/vertex_displacement.hpp>
+#include <cardiac/model/vertex_displacement.hpp>
 #include <cardiac/report/tables.hpp>
 #include <cardiac/report/text.hpp>
 #include <cardiac/report/wall_picture.hpp>

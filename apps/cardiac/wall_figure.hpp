@@ -1,7 +1,7 @@
 #pragma once
 
-#include <cardiac/heart/result.hpp>
 #include <cardiac/report/figures.hpp>
+#include <cardiac/run/result.hpp>
 
 namespace cardiac::app {
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include <cardiac/anatomy/segment_frames.hpp>
+#include <cardiac/reduction/segment_frames.hpp>
 
 #include "support/land_ellipsoid.hpp"
 

@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include <cardiac/heart/result.hpp>
+#include <cardiac/run/build_ventricle.hpp>
+#include <cardiac/run/result.hpp>
 #include <polyaffine/vtk/read.hpp>
 
 namespace cardiac::testing {

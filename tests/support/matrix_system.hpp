@@ -3,8 +3,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include <polyaffine/energy/field_energy.hpp>
-#include <polyaffine/solve/linear_system.hpp>
+#include <polyaffine/linear/linear_system.hpp>
+#include <polyaffine/system/field_energy.hpp>
 
 namespace polyaffine::testing {
 

@@ -8,7 +8,7 @@
 
 #include <cardiac/anatomy/right_ventricle.hpp>
 #include <polyaffine/core/error.hpp>
-#include <polyaffine/geometry/laplace.hpp>
+#include <polyaffine/fields/laplace.hpp>
 #include <polyaffine/mesh/surface.hpp>
 
 namespace cardiac {

@@ -6,7 +6,7 @@
 
 #include <cardiac/anatomy/long_axis.hpp>
 #include <polyaffine/core/monotone_cubic.hpp>
-#include <polyaffine/geometry/polynomial_field.hpp>
+#include <polyaffine/fields/polynomial_field.hpp>
 #include <polyaffine/kinematics/lagrange.hpp>
 #include <polyaffine/mesh/tet_mesh.hpp>
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include <polyaffine/core/error.hpp>
-#include <polyaffine/geometry/laplace.hpp>
+#include <polyaffine/fields/laplace.hpp>
 #include <polyaffine/mesh/surface.hpp>
 
 namespace cardiac {

@@ -1,11 +1,12 @@
 #include <cardiac/bench/beat_scene.hpp>
+#include <cardiac/run/build_ventricle.hpp>
 
 #include <algorithm>
 #include <cmath>
 
-#include <cardiac/heart/result.hpp>
 #include <cardiac/protocol/names.hpp>
 #include <cardiac/report/tables.hpp>
+#include <cardiac/run/result.hpp>
 #include <cardiac/strain/peaks.hpp>
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/core/single_thread.hpp>

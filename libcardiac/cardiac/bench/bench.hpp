@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include <cardiac/bench/errors.hpp>
 #include <cardiac/bench/model.hpp>
+#include <cardiac/run/errors.hpp>
 
 namespace cardiac {
 

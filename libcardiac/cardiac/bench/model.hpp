@@ -6,7 +6,7 @@
 
 #include <cardiac/anatomy/structured_ellipsoid.hpp>
 #include <cardiac/bench/scene.hpp>
-#include <cardiac/heart/ventricle.hpp>
+#include <cardiac/model/ventricle.hpp>
 #include <polyaffine/kinematics/lagrange.hpp>
 
 namespace cardiac {

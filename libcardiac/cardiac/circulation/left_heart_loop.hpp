@@ -4,7 +4,7 @@
 
 #include <cardiac/circulation/valve.hpp>
 #include <cardiac/circulation/windkessel.hpp>
-#include <cardiac/heart/beat_result.hpp>
+#include <cardiac/core/beat_result.hpp>
 #include <polyaffine/core/types.hpp>
 
 namespace cardiac {

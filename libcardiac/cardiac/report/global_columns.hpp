@@ -3,7 +3,7 @@
 #include <array>
 #include <string>
 
-#include <cardiac/heart/beat_result.hpp>
+#include <cardiac/core/beat_result.hpp>
 
 namespace cardiac {
 

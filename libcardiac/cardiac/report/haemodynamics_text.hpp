@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include <cardiac/heart/beat_result.hpp>
+#include <cardiac/core/beat_result.hpp>
 
 namespace cardiac {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include <cardiac/heart/beat_result.hpp>
+#include <cardiac/core/beat_result.hpp>
 
 namespace cardiac {
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include <cardiac/anatomy/control_nodes.hpp>
-#include <cardiac/heart/beat_result.hpp>
+#include <cardiac/core/beat_result.hpp>
+#include <cardiac/reduction/control_nodes.hpp>
 #include <polyaffine/mesh/tet_mesh.hpp>
 
 namespace cardiac {

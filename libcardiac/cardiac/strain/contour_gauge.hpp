@@ -4,7 +4,7 @@
 #include <vector>
 
 #include <cardiac/anatomy/coordinates.hpp>
-#include <cardiac/heart/beat_result.hpp>
+#include <cardiac/core/beat_result.hpp>
 #include <cardiac/strain/material_sheet.hpp>
 
 namespace cardiac {

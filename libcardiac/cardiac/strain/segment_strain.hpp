@@ -3,7 +3,7 @@
 #include <vector>
 
 #include <cardiac/anatomy/coordinates.hpp>
-#include <cardiac/heart/beat_result.hpp>
+#include <cardiac/core/beat_result.hpp>
 #include <polyaffine/kinematics/basis.hpp>
 
 namespace cardiac {

@@ -1,3 +1,4 @@
+#include <cardiac/run/build_ventricle.hpp>
 #include <cardiac/validation/biventricle.hpp>
 
 #include <algorithm>
@@ -5,9 +6,9 @@
 #include <cmath>
 #include <tuple>
 
-#include <cardiac/bench/errors.hpp>
 #include <cardiac/core/units.hpp>
-#include <cardiac/heart/beat.hpp>
+#include <cardiac/run/beat.hpp>
+#include <cardiac/run/errors.hpp>
 #include <polyaffine/core/error.hpp>
 
 namespace cardiac {

@@ -9,15 +9,15 @@
 #include <limits>
 #include <utility>
 
-#include <polyaffine/constraint/projection.hpp>
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/core/single_thread.hpp>
-#include <polyaffine/energy/springs.hpp>
 #include <polyaffine/kinematics/gmls_basis.hpp>
 #include <polyaffine/kinematics/resultant_table.hpp>
 #include <polyaffine/material/linear_elastic.hpp>
+#include <polyaffine/material/springs.hpp>
 #include <polyaffine/quadrature/consistent_weights.hpp>
 #include <polyaffine/quadrature/elastons.hpp>
+#include <polyaffine/solve/projection.hpp>
 
 namespace cardiac {
 

@@ -6,11 +6,12 @@
 #include <cmath>
 
 #include <cardiac/anatomy/exact_midpoints.hpp>
-#include <cardiac/bench/errors.hpp>
-#include <polyaffine/constraint/projection.hpp>
-#include <polyaffine/energy/springs.hpp>
+#include <cardiac/run/build_ventricle.hpp>
+#include <cardiac/run/errors.hpp>
 #include <polyaffine/kinematics/element_locator.hpp>
 #include <polyaffine/material/signed_volume.hpp>
+#include <polyaffine/material/springs.hpp>
+#include <polyaffine/solve/projection.hpp>
 
 namespace cardiac {
 

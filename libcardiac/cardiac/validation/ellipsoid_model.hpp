@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include <cardiac/heart/ventricle.hpp>
+#include <cardiac/model/ventricle.hpp>
 #include <polyaffine/geometry/locate.hpp>
 
 namespace cardiac {

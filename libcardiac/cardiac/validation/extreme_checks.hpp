@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <cardiac/anatomy/structured_ellipsoid.hpp>
-#include <cardiac/heart/beat.hpp>
+#include <cardiac/run/beat.hpp>
 #include <cardiac/validation/check.hpp>
 
 namespace cardiac {

@@ -1,3 +1,4 @@
+#include <cardiac/run/build_ventricle.hpp>
 #include <cardiac/validation/land_reduced.hpp>
 
 #include <chrono>
@@ -5,7 +6,7 @@
 #include <cardiac/anatomy/exact_midpoints.hpp>
 #include <cardiac/core/units.hpp>
 #include <cardiac/fibres/ellipsoid_fibres.hpp>
-#include <cardiac/heart/ventricle.hpp>
+#include <cardiac/model/ventricle.hpp>
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/core/single_thread.hpp>
 #include <polyaffine/kinematics/element_locator.hpp>

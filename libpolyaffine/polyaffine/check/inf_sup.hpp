@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include <polyaffine/energy/pressure_space.hpp>
+#include <polyaffine/system/pressure_space.hpp>
 
 namespace polyaffine {
 

@@ -7,7 +7,7 @@
 #include <unordered_map>
 
 #include <polyaffine/core/error.hpp>
-#include <polyaffine/quadrature/gauss.hpp>
+#include <polyaffine/rules/gauss.hpp>
 
 namespace polyaffine {
 namespace {

@@ -6,7 +6,7 @@
 #include <polyaffine/kinematics/basis.hpp>
 #include <polyaffine/mesh/curved_edges.hpp>
 #include <polyaffine/mesh/tet_mesh.hpp>
-#include <polyaffine/quadrature/gauss.hpp>
+#include <polyaffine/rules/gauss.hpp>
 
 namespace polyaffine {
 

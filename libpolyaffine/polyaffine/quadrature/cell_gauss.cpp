@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <polyaffine/quadrature/gauss.hpp>
+#include <polyaffine/rules/gauss.hpp>
 
 namespace polyaffine {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <polyaffine/core/types.hpp>
 #include <polyaffine/geometry/eikonal.hpp>
-#include <polyaffine/quadrature/gauss.hpp>
+#include <polyaffine/rules/gauss.hpp>
 
 namespace polyaffine {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include <polyaffine/constraint/projection.hpp>
-#include <polyaffine/energy/field_energy.hpp>
-#include <polyaffine/solve/linear_system.hpp>
+#include <polyaffine/linear/linear_system.hpp>
+#include <polyaffine/solve/projection.hpp>
+#include <polyaffine/system/field_energy.hpp>
 
 namespace polyaffine {
 

@@ -6,8 +6,8 @@
 #include <random>
 #include <set>
 
-#include <cardiac/anatomy/biventricular_frames.hpp>
 #include <cardiac/anatomy/segments.hpp>
+#include <cardiac/reduction/biventricular_frames.hpp>
 #include <polyaffine/geometry/geodesic_regions.hpp>
 
 #include "support/biventricle.hpp"

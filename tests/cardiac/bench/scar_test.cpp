@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include <cardiac/anatomy/structured_ellipsoid.hpp>
-#include <cardiac/bench/errors.hpp>
 #include <cardiac/bench/model.hpp>
+#include <cardiac/run/errors.hpp>
 
 namespace cardiac {
 namespace {

@@ -3,9 +3,9 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include <polyaffine/energy/field_energy.hpp>
 #include <polyaffine/kinematics/basis.hpp>
 #include <polyaffine/material/signed_volume.hpp>
+#include <polyaffine/system/field_energy.hpp>
 #include "rotating_basis.hpp"
 
 namespace polyaffine {

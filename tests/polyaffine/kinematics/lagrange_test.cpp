@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include <polyaffine/core/error.hpp>
-#include <polyaffine/energy/field_energy.hpp>
 #include <polyaffine/kinematics/lagrange.hpp>
 #include <polyaffine/material/signed_volume.hpp>
+#include <polyaffine/system/field_energy.hpp>
 #include "polyaffine/geometry/box_mesh.hpp"
 #include "rotating_basis.hpp"
 

@@ -3,10 +3,10 @@
 #include <Eigen/Geometry>
 
 #include <polyaffine/core/error.hpp>
-#include <polyaffine/energy/field_energy.hpp>
 #include <polyaffine/geometry/geodesic_regions.hpp>
 #include <polyaffine/kinematics/region_frames.hpp>
 #include <polyaffine/material/neo_hookean.hpp>
+#include <polyaffine/system/field_energy.hpp>
 #include "polyaffine/geometry/box_mesh.hpp"
 #include "rotating_basis.hpp"
 

@@ -3,10 +3,10 @@
 #include <memory>
 #include <stdexcept>
 
-#include <polyaffine/energy/field_energy.hpp>
-#include <polyaffine/energy/springs.hpp>
 #include <polyaffine/kinematics/lagrange.hpp>
 #include <polyaffine/kinematics/resultant_table.hpp>
+#include <polyaffine/material/springs.hpp>
+#include <polyaffine/system/field_energy.hpp>
 
 #include "polyaffine/kinematics/rotating_basis.hpp"
 #include "support/labelled_box.hpp"

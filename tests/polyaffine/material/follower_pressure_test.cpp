@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <polyaffine/energy/field_energy.hpp>
 #include <polyaffine/kinematics/lagrange.hpp>
+#include <polyaffine/system/field_energy.hpp>
 
 #include "support/labelled_box.hpp"
 #include "support/matrix_system.hpp"

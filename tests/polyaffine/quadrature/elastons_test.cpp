@@ -5,11 +5,11 @@
 #include <stdexcept>
 
 #include <polyaffine/check/derivative_check.hpp>
-#include <polyaffine/energy/field_energy.hpp>
 #include <polyaffine/geometry/locate.hpp>
 #include <polyaffine/kinematics/basis.hpp>
 #include <polyaffine/material/linear_elastic.hpp>
 #include <polyaffine/quadrature/elastons.hpp>
+#include <polyaffine/system/field_energy.hpp>
 
 #include "polyaffine/geometry/box_mesh.hpp"
 #include "support/matrix_system.hpp"

@@ -2,11 +2,11 @@
 
 #include <memory>
 
-#include <polyaffine/constraint/projection.hpp>
-#include <polyaffine/energy/springs.hpp>
 #include <polyaffine/material/linear_elastic.hpp>
+#include <polyaffine/material/springs.hpp>
 #include <polyaffine/quadrature/nearest_weights.hpp>
 #include <polyaffine/solve/equilibrium.hpp>
+#include <polyaffine/solve/projection.hpp>
 
 #include "support/random_regions.hpp"
 

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include <polyaffine/energy/springs.hpp>
 #include <polyaffine/kinematics/lagrange.hpp>
 #include <polyaffine/material/neo_hookean.hpp>
+#include <polyaffine/material/springs.hpp>
 
 #include "support/labelled_box.hpp"
 

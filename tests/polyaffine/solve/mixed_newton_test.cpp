@@ -2,9 +2,9 @@
 #include <tbb/global_control.h>
 
 #include <polyaffine/check/derivative_check.hpp>
-#include <polyaffine/energy/springs.hpp>
 #include <polyaffine/kinematics/lagrange.hpp>
 #include <polyaffine/material/neo_hookean.hpp>
+#include <polyaffine/material/springs.hpp>
 #include <polyaffine/solve/equilibrium.hpp>
 
 #include "support/labelled_box.hpp"

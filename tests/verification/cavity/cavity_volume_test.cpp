@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include <polyaffine/energy/field_energy.hpp>
 #include <polyaffine/kinematics/lagrange.hpp>
 #include <polyaffine/material/signed_volume.hpp>
 #include <polyaffine/mesh/surface.hpp>
+#include <polyaffine/system/field_energy.hpp>
 #include <polyaffine/vtk/read.hpp>
 
 #include "support/random_vector.hpp"

@@ -3,14 +3,14 @@
 #include <Eigen/Geometry>
 #include <memory>
 
-#include <polyaffine/constraint/projection.hpp>
-#include <polyaffine/energy/springs.hpp>
 #include <polyaffine/geometry/locate.hpp>
 #include <polyaffine/material/neo_hookean.hpp>
+#include <polyaffine/material/springs.hpp>
 #include <polyaffine/material/volumetric.hpp>
 #include <polyaffine/quadrature/cell_rule.hpp>
 #include <polyaffine/quadrature/nearest_weights.hpp>
 #include <polyaffine/solve/equilibrium.hpp>
+#include <polyaffine/solve/projection.hpp>
 
 #include "support/random_regions.hpp"
 

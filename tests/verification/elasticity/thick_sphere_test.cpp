@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 
-#include <polyaffine/energy/springs.hpp>
 #include <polyaffine/kinematics/lagrange.hpp>
 #include <polyaffine/material/neo_hookean.hpp>
 #include <polyaffine/material/signed_volume.hpp>
-#include <polyaffine/quadrature/gauss.hpp>
+#include <polyaffine/material/springs.hpp>
+#include <polyaffine/rules/gauss.hpp>
 #include <polyaffine/solve/equilibrium.hpp>
 
 #include "support/labelled_box.hpp"

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <cardiac/reduction/discretisation.hpp>
+
+namespace cardiac {
+
+/// Angle between the radial axis of a wall and the shortest way through it, ∇t: root mean square over the
+/// volume of the left wall and the septum, degrees. Axes are smooth, the wall's normal need not be: where
+/// muscle stands into the cavity the two part, or the axes turn within a few millimetres, and displacements
+/// along them strain the wall for no reason.
+double radial_misfit_deg(const Anatomy& anatomy);
+
+/// Heart axes serve up to here. Measured, ° (displacement against full order in heart and in Cartesian axes):
+/// idealised left ventricles 0.6 to 1.0, two ventricles 3.9; an imaged one 6.1 (32 and 11 %), one with two
+/// papillary muscles 13 (270 and 9 %).
+inline constexpr double kTurningAxes_deg = 5;
+
+/// The axes that a protocol's reduced model with tents has on a wall: those it asks for; `automatic` heart
+/// axes, or Cartesian ones where they turn too fast or there are two ventricles. What there is to tell about
+/// that is added to the warnings.
+protocol::Axes axes_of(const Anatomy& anatomy, const Protocol& protocol, std::vector<std::string>& warnings);
+
+}  // namespace cardiac

@@ -1,0 +1,163 @@
+#include "cardiac/reduction/discretisation.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include <cardiac/fibres/helix.hpp>
+#include <cardiac/reduction/axes_check.hpp>
+#include <cardiac/reduction/biventricular_frames.hpp>
+#include <cardiac/reduction/border_frames.hpp>
+#include <cardiac/reduction/reduced_points.hpp>
+#include <polyaffine/geometry/geodesic_regions.hpp>
+#include <polyaffine/kinematics/region_frames.hpp>
+
+namespace cardiac {
+
+using polyaffine::FrameFunctions;
+using polyaffine::LagrangeBasis;
+using polyaffine::Monomial;
+using polyaffine::Vec3;
+using polyaffine::Vec4;
+using polyaffine::Vector;
+
+namespace {
+
+std::vector<Monomial> monomials(const Protocol& protocol) {
+  auto out = polyaffine::affine_monomials();
+  for (const auto& name : *protocol.reduction.enrichment) {
+    const Monomial m = polyaffine::parse_monomial(name);
+    if (std::find(out.begin(), out.end(), m) == out.end()) out.push_back(m);
+  }
+  return out;
+}
+
+// Functions of every frame. Within a ring the tents interpolate linearly, so Σ_j C_j(ψ) (ψ − ψ_j) = 0: of the
+// functions with a single factor c those of one frame depend on the others', and the last frame of each ring,
+// that of the base frames included, goes without.
+std::vector<std::vector<Monomial>> independent(const SegmentFrames& frames,
+                                               const std::vector<Monomial>& all) {
+  std::vector<std::vector<Monomial>> out(frames.num_frames(), all);
+  const auto thin = [&](int last) { std::erase_if(out[last], [](const Monomial& m) { return m[1] == 1; }); };
+  for (const FrameRing& ring : frames.layout().rings) thin(ring.first_frame + ring.nodes - 1);
+  if (frames.base_frames()) thin(frames.layout().num_nodes() + frames.layout().rings.back().nodes - 1);
+  return out;
+}
+
+// The frame of the cap has Cartesian axes, in which longitudinal and circumferential mean nothing: the
+// functions of degree two at most, each with l and c exchanged besides.
+std::vector<Monomial> of_cap(const std::vector<Monomial>& functions) {
+  std::vector<Monomial> out;
+  for (const Monomial& m : functions)
+    for (const Monomial& own : {m, Monomial{m[1], m[0], m[2]}})
+      if (m[0] + m[1] + m[2] <= 2 && std::find(out.begin(), out.end(), own) == out.end()) out.push_back(own);
+  return out;
+}
+
+// Tent weights, with boundary frames at the base that carry only functions with a factor l.
+void add_tent_basis(const Anatomy& anatomy, const Protocol& protocol, Discretisation& out) {
+  const auto frames = [&](bool base_frames) -> std::shared_ptr<const SegmentFrames> {
+    if (anatomy.coordinates->right())
+      return std::make_shared<BiventricularFrames>(anatomy.coordinates, out.layout, base_frames);
+    return std::make_shared<SegmentFrames>(anatomy.coordinates, out.layout, base_frames);
+  };
+  out.frames = frames(true);
+  out.pressure_frames = frames(false);
+  const auto* both = dynamic_cast<const BiventricularFrames*>(out.frames.get());
+  std::vector<std::string> told_with_the_result;
+  const bool heart_axes = axes_of(anatomy, protocol, told_with_the_result) == protocol::Axes::heart;
+  std::vector<FrameFunctions> functions;
+  const auto own = independent(*out.frames, monomials(protocol));
+  for (int i = 0; i < out.frames->num_frames(); ++i) {
+    FrameFunctions f{own[i], heart_axes && i != out.layout.cap() && !(both && both->is_right(i))};
+    if (i == out.layout.cap()) f.monomials = of_cap(own[i]);
+    if (i >= out.layout.num_nodes()) std::erase_if(f.monomials, [](const Monomial& m) { return m[0] == 0; });
+    functions.push_back(f);
+  }
+  if (*protocol.reduction.border_functions) {
+    const auto with_borders = std::make_shared<BorderFrames>(out.frames, segment_kinds(protocol));
+    functions.resize(with_borders->num_frames(), {{{0, 0, 0}}, heart_axes});
+    out.frame_basis = std::make_shared<polyaffine::FrameBasis>(with_borders, functions);
+  } else
+    out.frame_basis = std::make_shared<polyaffine::FrameBasis>(out.frames, functions);
+}
+
+// Zero on the base, one below the basal ring, with a continuous slope; at the nodes of the geometry.
+Vector clamp_factor(const VentricularCoordinates& coordinates, double basal_ring) {
+  const Vector s = ((1 - coordinates.apicobasal().array()) / (1 - basal_ring)).min(1.0);
+  return s.array() * (2 - s.array());
+}
+
+void add_sigmoid_basis(const Anatomy& anatomy, const Protocol& protocol, Discretisation& out) {
+  const polyaffine::TetMesh& mesh = anatomy.mesh;
+  const int n = out.layout.num_nodes();
+  const polyaffine::Matrix distances =
+      polyaffine::normalised_border_distances(polyaffine::EikonalSolver(mesh), out.region, n);
+  std::vector<polyaffine::ControlNode> nodes(n);
+  for (int i = 0; i < n; ++i) {
+    Eigen::Index deepest = 0;
+    distances.row(i).minCoeff(&deepest);
+    Eigen::Index corner = 0, tet = 0;
+    (mesh.tets().array() == static_cast<int>(deepest)).maxCoeff(&corner, &tet);
+    const CoordinateSample at = anatomy.coordinates->wall_sample(static_cast<int>(tet), Vec4::Unit(corner));
+    nodes[i] = {mesh.points().col(deepest), orthonormal_axes(at)};
+  }
+  const auto weights = std::make_shared<polyaffine::RegionWeights>(
+      mesh, distances, polyaffine::RegionWeightOptions{.sharpness = protocol.reduction.sigmoid_slope});
+  const std::shared_ptr<const LagrangeBasis> geometry(anatomy.coordinates, &anatomy.coordinates->space());
+  const auto frames = std::make_shared<polyaffine::RegionFrames>(
+      geometry, weights, nodes, out.layout.length,
+      clamp_factor(*anatomy.coordinates, out.layout.rings.back().u));
+  out.pressure_frames = std::make_shared<polyaffine::RegionFrames>(frames->without_clamp());
+  out.frame_basis = std::make_shared<polyaffine::FrameBasis>(
+      frames, std::vector<FrameFunctions>(n, {monomials(protocol), false}));
+}
+
+}  // namespace
+
+FrameLayout protocol_layout(const Anatomy& anatomy, const Protocol& protocol) {
+  const auto& reduction = protocol.reduction;
+  RingOptions options{reduction.ring_nodes, reduction.ring_positions.value_or(std::vector<double>{}),
+                      reduction.ring_angles_deg.value_or(std::vector<double>{})};
+  for (double& angle : options.angles) angle *= polyaffine::kPi / 180;
+  return frame_layout(anatomy.mesh, *anatomy.coordinates, options);
+}
+
+Discretisation reduced_discretisation(const Anatomy& anatomy, const Protocol& protocol) {
+  Discretisation out;
+  out.layout = protocol_layout(anatomy, protocol);
+  out.region = region_tets(anatomy.mesh, *anatomy.coordinates, out.layout);
+  const bool sigmoid = protocol.reduction.weights == protocol::Weights::sigmoid;
+  (sigmoid ? add_sigmoid_basis : add_tent_basis)(anatomy, protocol, out);
+  out.basis = out.frame_basis;
+  out.num_unknowns = 3 * out.basis->num_functions();
+  out.fixed.assign(out.num_unknowns, 0);
+
+  add_reduced_points(anatomy, protocol, out);
+  return out;
+}
+
+polyaffine::PressureSpace pressure_space(const Discretisation& discretisation,
+                                         const polyaffine::FieldTable& table, const Protocol& protocol) {
+  const double kappa = protocol.tissue.bulk_modulus_kPa;
+  if (!discretisation.frame_basis) return polyaffine::block_pressure(table, kappa);
+
+  using Space = protocol::PressureSpace;
+  const auto& points = discretisation.points;
+  const Space space = *protocol.reduction.pressure_space;
+  if (space == Space::segment) {
+    std::vector<int> region;
+    for (const int t : points.tet) region.push_back(discretisation.region[t]);
+    return polyaffine::region_pressure(table, region, discretisation.layout.num_nodes(), kappa);
+  }
+  std::vector<Monomial> functions{{0, 0, 0}, {0, 0, 1}};
+  if (space != Space::segment_depth) functions.insert(functions.end(), {{1, 0, 0}, {0, 1, 0}});
+  if (space == Space::segment_bilinear) functions.insert(functions.end(), {{1, 0, 1}, {0, 1, 1}});
+  const auto& frames = *discretisation.pressure_frames;
+  const auto* tents = dynamic_cast<const SegmentFrames*>(&frames);
+  const auto own = tents ? independent(*tents, functions) : std::vector(frames.num_frames(), functions);
+  const polyaffine::Matrix values = polyaffine::frame_values(frames, own, points.tet, points.barycentric);
+  return polyaffine::dense_pressure(table, values, kappa);
+}
+
+}  // namespace cardiac

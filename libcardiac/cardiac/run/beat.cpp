@@ -1,0 +1,298 @@
+#include "cardiac/run/beat.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iomanip>
+#include <iterator>
+#include <sstream>
+
+#include "cardiac/model/beat_system.hpp"
+#include "cardiac/run/beat_instants.hpp"
+#include "cardiac/run/checkpoint.hpp"
+#include "cardiac/run/statics.hpp"
+
+#include <cardiac/core/units.hpp>
+#include <polyaffine/core/error.hpp>
+
+namespace cardiac {
+
+using polyaffine::Vector;
+
+LeftHeartLoop left_heart_loop(const protocol::Circulation& c) {
+  LeftHeartLoop loop;
+  loop.filling_pressure_kPa = c.filling_pressure_mmHg * kPa_per_mmHg;
+  loop.mitral.resistance_kPa_ms_per_mm3 = c.mitral_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL;
+  loop.aortic.resistance_kPa_ms_per_mm3 =
+      c.aortic_valve_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL;
+  if (c.aortic_leak_resistance_mmHg_s_per_mL)
+    loop.aortic.leak_kPa_ms_per_mm3 = *c.aortic_leak_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL;
+  loop.arteries = {c.characteristic_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL,
+                   c.peripheral_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL,
+                   c.compliance_mL_per_mmHg * compliance_per_mL_per_mmHg,
+                   c.venous_pressure_mmHg * kPa_per_mmHg};
+  return loop;
+}
+
+TwoSidedLoop two_sided_loop(const protocol::Circulation& c) {
+  const LeftHeartLoop left = left_heart_loop(c);
+  TwoSidedLoop loop;
+  loop.left.inlet = left.mitral;
+  loop.left.outlet = left.aortic;
+  loop.left.arteries = left.arteries;
+  loop.left.venous_compliance_mm3_per_kPa =
+      c.pulmonary_venous_compliance_mL_per_mmHg * compliance_per_mL_per_mmHg;
+  loop.right.inlet.resistance_kPa_ms_per_mm3 =
+      c.tricuspid_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL;
+  loop.right.outlet.resistance_kPa_ms_per_mm3 =
+      c.pulmonary_valve_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL;
+  loop.right.arteries = {c.pulmonary_characteristic_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL,
+                         c.pulmonary_peripheral_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL,
+                         c.pulmonary_compliance_mL_per_mmHg * compliance_per_mL_per_mmHg, 0};
+  loop.right.venous_compliance_mm3_per_kPa =
+      c.systemic_venous_compliance_mL_per_mmHg * compliance_per_mL_per_mmHg;
+  return loop;
+}
+
+std::shared_ptr<const CirculationModel> circulation_model(bool two_ventricles,
+                                                          const protocol::Circulation& c) {
+  if (two_ventricles) return std::make_shared<TwoSidedCirculation>(two_sided_loop(c));
+  return std::make_shared<LeftHeartCirculation>(left_heart_loop(c));
+}
+
+namespace {
+
+// The state of a wall filled to the atrial pressures.
+HeartState filled_state(const Ventricle& ventricle, const protocol::Circulation& c, const Vector& at) {
+  HeartState out{0, at, ventricle.cavity_volume(at), c.filling_pressure_mmHg * kPa_per_mmHg,
+                 c.initial_aortic_pressure_mmHg * kPa_per_mmHg};
+  if (!ventricle.right_cavity) return out;
+  out.right_volume_mm3 = ventricle.right_cavity->evaluate({at}).value;
+  out.right_pressure_kPa = c.right_filling_pressure_mmHg * kPa_per_mmHg;
+  out.loop = Vector(3);
+  out.loop << c.initial_pulmonary_pressure_mmHg, c.filling_pressure_mmHg, c.right_filling_pressure_mmHg;
+  out.loop *= kPa_per_mmHg;
+  return out;
+}
+
+// The wall in equilibrium at the filling pressure. On failure the path says so.
+bool fill(const Ventricle& ventricle, const protocol::Circulation& circulation, const Vector& tension,
+          const RunControl& control, HeartPath& path, Vector& c) {
+  const auto problem = loaded_ventricle(ventricle, {circulation.filling_pressure_mmHg * kPa_per_mmHg, tension,
+                                                    circulation.right_filling_pressure_mmHg * kPa_per_mmHg});
+  const auto system = ventricle.make_system();
+  polyaffine::LoadOptions options;
+  options.interrupted = [&] { return stop_wanted(control); };
+  const auto report = polyaffine::load_stepping(problem, *system, c, options);
+  path.newton_iterations += report.iterations;
+  path.cuts += report.cuts;
+  warn_of_instability(report, "filling pressure", path);
+  if (report.converged()) return true;
+  path.stop_reason =
+      "filling stopped at " + std::to_string(report.reached * circulation.filling_pressure_mmHg) + " of " +
+      std::to_string(circulation.filling_pressure_mmHg) + " mmHg: " + why_it_stopped(report, control);
+  return false;
+}
+
+double stroke_volume(const std::vector<HeartState>& steps) {
+  const auto by_volume = [](const HeartState& a, const HeartState& b) { return a.volume_mm3 < b.volume_mm3; };
+  const auto [low, high] = std::minmax_element(steps.begin(), steps.end(), by_volume);
+  return high->volume_mm3 - low->volume_mm3;
+}
+
+// Beats that the slowest arteries need to come nearer by their whole distance, 1/(1 − e^(−T/RC)).
+double beats_of_arteries(const Protocol& protocol) {
+  const protocol::Circulation& c = *protocol.circulation;
+  const double RC_s =
+      std::max(c.peripheral_resistance_mmHg_s_per_mL * c.compliance_mL_per_mmHg,
+               c.pulmonary_peripheral_resistance_mmHg_s_per_mL * c.pulmonary_compliance_mL_per_mmHg);
+  return -1 / std::expm1(-60 / protocol.time.heart_rate_bpm / RC_s);
+}
+
+// Of the last beat from its limit; where no estimate could be used, no less than the arteries may need.
+double distance_percent(const HeartPath& path, int volumes, const Protocol& protocol) {
+  const CycleEstimate estimate = estimate_limit_cycle(path.cycle, volumes);
+  return estimate.distance_percent * (estimate.extrapolated ? 1 : beats_of_arteries(protocol));
+}
+
+// The limit cycle is reached when the last beat is near the one that would repeat itself, and the beat before
+// confirms it.
+bool closed(const HeartPath& path, int volumes, const Protocol& protocol) {
+  const double tolerance_percent = protocol.time.limit_cycle_tolerance_percent;
+  const auto& sv = path.stroke_volumes_mm3;
+  return sv.size() > 1 &&
+         std::abs(sv.back() - sv[sv.size() - 2]) <= tolerance_percent / 100 * std::abs(sv.back()) &&
+         distance_percent(path, volumes, protocol) <= tolerance_percent;
+}
+
+std::string unclosed_warning(const HeartPath& path, int volumes, const Protocol& protocol) {
+  const protocol::Time& time = protocol.time;
+  std::ostringstream out;
+  out << "the pressure-volume loop did not close to " << time.limit_cycle_tolerance_percent
+      << " % (time.limit_cycle_tolerance_percent) in " << path.beats
+      << (path.beats == 1 ? " beat: " : " beats: ");
+  if (path.cycle.size() > 1)
+    out << "the last is about " << std::setprecision(2) << distance_percent(path, volumes, protocol)
+        << " % from the one that would repeat itself; ";
+  else
+    out << "one beat does not tell how far it is from the one that would repeat itself; ";
+  if (is_noise(path.cycle, volumes))
+    out << "from beat to beat this is noise of the time integration and comes no nearer: lower "
+           "time.relative_tolerance ("
+        << time.relative_tolerance << "), time.absolute_tolerance_mm (" << time.absolute_tolerance_mm
+        << ") and time.absolute_tolerance_mmHg (" << time.absolute_tolerance_mmHg << ")";
+  else
+    out << "raise time.max_beats";
+  return out.str();
+}
+
+// Begins the next beat with the vessels' pressures of the estimated limit, from what the last one ended with.
+void extrapolate(BeatSystem& system, double t, const HeartPath& path, Vector& y, Vector& rate) {
+  const CycleEstimate limit = estimate_limit_cycle(path.cycle, system.num_cavities());
+  if (!limit.extrapolated) return;
+  Vector wanted = limit.pressures_kPa;
+  if (system.circulation().is_closed()) {
+    const Vector compliances = system.circulation().compliances().tail(wanted.size());
+    wanted.array() += compliances.dot(system.vessels(y) - wanted) / compliances.sum();
+  }
+  system.vessels(y) = wanted;
+  system.restart_consistently(t, y, rate);
+}
+
+// The beat that the path has come to, from and to (y, rate). False, with the reason, when it stopped.
+bool run_beat(BeatSystem& system, const Protocol& protocol, const ContractionField& contraction,
+              const RunControl& control, Vector& y, Vector& rate, HeartPath& path) {
+  const double period = contraction.curve.period_ms(), onset_ms = contraction_onset_ms(contraction);
+  const int beat = path.beats;
+  const double begin = beat * period, end = (beat + 1) * period;
+  const double interval = protocol.output.interval_ms;
+  const int most = most_steps(protocol.time, period);
+  path.beat_start_ms = begin;
+  path.steps = {system.unpack(begin, begin, y)};
+  path.outputs = path.steps;
+  polyaffine::DaeIntegrator ida(system, system.options(protocol.time), begin, y, rate);
+  BeatInstants instants(system, begin, onset_ms, y, path);
+  CycleBeat cycle{system.states(y), {}, 0};
+  std::string stop;
+  while (stop.empty() && ida.time() < end - 1e-9 * period) {
+    const double from = ida.time();
+    if (ida.step(end) == polyaffine::DaeStatus::failed) {
+      stop = ida.failure();
+      break;
+    }
+    path.steps.push_back(system.unpack(ida.time(), begin, ida.y()));
+    instants.follow(ida, from);
+    for (double t = begin + interval * static_cast<double>(path.outputs.size());
+         t <= ida.time() + 1e-9 && t <= end + 1e-9;
+         t = begin + interval * static_cast<double>(path.outputs.size())) {
+      Vector at;
+      ida.interpolate(std::min(t, ida.time()), at);
+      path.outputs.push_back(system.unpack(t, begin, at));
+    }
+    path.min_det_F = std::min(path.min_det_F, system.min_det());
+    path.max_det_F = std::max(path.max_det_F, system.max_det());
+    if (control.progress)
+      control.progress("beat " + std::to_string(beat + 1), ida.time() / (period * protocol.time.max_beats));
+    if (std::ssize(path.steps) > most)
+      stop = too_many_steps(most, path.steps.back().time_ms - path.steps.end()[-2].time_ms);
+    else if (stop_wanted(control))
+      stop = control.stop_reason();
+  }
+  y = ida.y();
+  rate = ida.rate();
+  const auto counters = ida.counters();
+  path.simulated_ms = ida.time();
+  path.time_steps += static_cast<int>(counters.steps);
+  path.newton_iterations += static_cast<int>(counters.newton_iterations);
+  system.cost().error_test_failures += counters.error_test_failures;
+  system.cost().convergence_failures += counters.convergence_failures;
+  if (stop.empty()) {
+    cycle.end = system.states(y);
+    cycle.stroke_mm3 = stroke_volume(path.steps);
+    path.stroke_volumes_mm3.push_back(cycle.stroke_mm3);
+    path.cycle.push_back(std::move(cycle));
+    return true;
+  }
+  path.stop_reason =
+      "stopped at " + std::to_string(ida.time()) + " ms (beat " + std::to_string(beat + 1) + "): " + stop;
+  return false;
+}
+
+// The wall filled, and (y, rate) when the first beat begins. False, with the reason, when it stopped.
+bool begin_beats(const Ventricle& ventricle, const Protocol& protocol, const RunControl& control,
+                 BeatSystem& system, Vector& y, Vector& rate, HeartPath& path) {
+  const protocol::Circulation& circulation = *protocol.circulation;
+  Vector c = Vector::Zero(ventricle.num_coefficients());
+  const auto begin = std::chrono::steady_clock::now();
+  const bool filled = fill(ventricle, circulation, ventricle.contraction->tension(0), control, path, c);
+  system.cost().filling_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (!filled) return false;
+  HeartState start = filled_state(ventricle, circulation, c);
+  rate = system.start_consistently(start);
+  y = system.pack(start);
+  return true;
+}
+
+// Where an earlier run came to.
+void take_up(const Checkpoint& from, BeatSystem& system, Vector& y, Vector& rate, HeartPath& path) {
+  if (from.y.size() != system.size())
+    throw polyaffine::InputError("the checkpoint holds " + std::to_string(from.y.size()) +
+                                 " unknowns, expected " + std::to_string(system.size()));
+  for (const CycleBeat& beat : from.cycle)
+    if (beat.start.size() != system.circulation().num_states())
+      throw polyaffine::InputError("the checkpoint's beats hold " + std::to_string(beat.start.size()) +
+                                   " states of the circulation, expected " +
+                                   std::to_string(system.circulation().num_states()));
+  y = from.y;
+  rate = from.rate;
+  path.beats = from.beats;
+  path.time_steps = from.time_steps;
+  path.newton_iterations = from.newton_iterations;
+  path.stroke_volumes_mm3 = from.stroke_volumes_mm3;
+  path.cycle = from.cycle;
+  path.min_det_F = from.min_det_F;
+  path.max_det_F = from.max_det_F;
+  system.cost() = from.cost;
+}
+
+Checkpoint checkpoint(const HeartPath& path, const BeatSystem& system, const Vector& y, const Vector& rate) {
+  return {path.beats,
+          path.time_steps,
+          path.newton_iterations,
+          path.stroke_volumes_mm3,
+          path.cycle,
+          path.min_det_F,
+          path.max_det_F,
+          system.cost(),
+          y,
+          rate};
+}
+
+}  // namespace
+
+HeartPath run_beats(const Ventricle& ventricle, const Protocol& protocol, const RunControl& control) {
+  BeatSystem system(ventricle, circulation_model(ventricle.right_cavity != nullptr, *protocol.circulation));
+  const int cavities = system.num_cavities();
+  HeartPath path;
+  ++path.built["circulation"];
+  Vector y, rate;
+  bool going_on = true, is_closed = false;
+  if (control.resume)
+    take_up(*control.resume, system, y, rate, path);
+  else
+    going_on = begin_beats(ventricle, protocol, control, system, y, rate, path);
+  while (going_on && !path.completed) {
+    if (control.on_checkpoint) control.on_checkpoint(checkpoint(path, system, y, rate));
+    going_on = run_beat(system, protocol, *ventricle.contraction, control, y, rate, path);
+    if (!going_on) break;
+    ++path.beats;
+    is_closed = closed(path, cavities, protocol);
+    path.completed = is_closed || path.beats == protocol.time.max_beats || is_noise(path.cycle, cavities);
+    if (!path.completed) extrapolate(system, path.simulated_ms, path, y, rate);
+  }
+  path.cost = system.cost();
+  if (path.completed && !is_closed) path.warnings.push_back(unclosed_warning(path, cavities, protocol));
+  return path;
+}
+
+}  // namespace cardiac

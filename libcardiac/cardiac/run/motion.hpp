@@ -1,0 +1,45 @@
+#pragma once
+
+#include <vector>
+
+#include <cardiac/model/ventricle.hpp>
+#include <cardiac/strain/affine_fit.hpp>
+#include <cardiac/strain/contour_gauge.hpp>
+#include <cardiac/strain/segment_strain.hpp>
+
+namespace cardiac {
+
+/// The motion of a ventricle since end diastole as it is told: strain of the segments (SegmentGauge), their
+/// affine maps (AffineFit) and the global strain of each ventricle (global_strain, ContourGauge). All that
+/// does not change with time is computed once. The ventricle must outlive the motion.
+class Motion {
+ public:
+  /// `c_ed`: the end-diastolic coefficients of the wall; a node and an entry of `segments` for each segment.
+  Motion(const Ventricle& ventricle, const std::vector<ControlNode>& nodes,
+         const std::vector<SegmentInfo>& segments, const polyaffine::Vector& c_ed);
+
+  /// The state with coefficients c, without unknowns of frames; global strain of the left ventricle and,
+  /// where there is a right cavity, of the right one.
+  Instant instant(double time_ms, const polyaffine::Vector& c) const;
+
+  /// The control nodes at end diastole.
+  std::vector<SegmentNode> nodes() const;
+
+ private:
+  polyaffine::Points vertices(const polyaffine::Vector& c) const;
+  ContourGauge contours(ContourGauge::Side side) const;
+
+  const Anatomy& anatomy_;
+  const std::vector<ControlNode>& control_nodes_;
+  polyaffine::WallPoints points_;
+  polyaffine::FieldTable table_;
+  SegmentGauge gauge_;
+  polyaffine::DisplacementMap at_points_, at_vertices_;
+  std::vector<polyaffine::Mat3> axes_ed_;
+  polyaffine::Points points_ed_, vertices_ed_;
+  AffineFit fit_;
+  std::vector<double> volumes_;  ///< of the segments
+  std::vector<ContourGauge> contours_;
+};
+
+}  // namespace cardiac

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cardiac/run/result.hpp>
+
+namespace cardiac {
+
+/// Solves full order at end diastole and end systole of a reduced path, under the same pressure and tension,
+/// starting from the reduced displacement, and compares: relative L2 difference of the displacement over the
+/// wall (zero where nothing moves in full order), cavity volume (of two ventricles the one that is further
+/// off), largest difference of a normal segment strain (Lagrangian against the model's own end diastole).
+/// Differences are reduced against full order. `progress` is told each iteration and the share that is done,
+/// an instant counting as a half and within it the decades that the residual has fallen; it may throw. Throws
+/// ComputationError when the full-order problem has no solution near by.
+std::vector<VerificationInstant> verify_path(const Ventricle& reduced, const Protocol& protocol,
+                                             const HeartPath& path, const Progress& progress = {});
+
+}  // namespace cardiac

@@ -1,0 +1,312 @@
+#include "polyaffine/system/field_energy.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include <polyaffine/kinematics/block_products.hpp>
+#include <polyaffine/material/volumetric_response.hpp>
+
+namespace polyaffine {
+namespace {
+
+constexpr int kChunk = 64;           // blocks whose local matrices are kept before they are added in order
+constexpr int kSerialPoints = 4096;  // points whose forces one thread computes sooner than it wakes another
+
+void scatter(const std::vector<int>& functions, const Matrix& local, Vector& global) {
+  for (std::size_t a = 0; a < functions.size(); ++a)
+    global.segment<3>(3 * functions[a]) += local.col(static_cast<Eigen::Index>(a));
+}
+
+// As for a dead load.
+bool without_tangent(const PackResponse& r) {
+  for (int i = 0; i < 9; ++i)
+    for (int j = 0; j <= i; ++j)
+      for (int lane = 0; lane < kLanes; ++lane)
+        if (r.A[i][j][lane] != 0) return false;
+  return true;
+}
+
+Mat3Pack scaled_cofactor(const Mat3Pack& F, const Pack& factor) {
+  Mat3Pack out = cofactor(F);
+  for (Pack& entry : out.m) entry *= factor;
+  return out;
+}
+
+template <class Work>
+void for_range(bool parallel, int begin, int end, const Work& work) {
+  if (parallel)
+    tbb::parallel_for(begin, end, work);
+  else
+    for (int k = begin; k < end; ++k) work(k);
+}
+
+// Runs work(k, slot) for the blocks of a chunk and then finish(k, slot) in order: the sums do not depend on
+// threads.
+template <class Work, class Finish>
+void for_blocks(bool parallel, int count, const Work& work, const Finish& finish) {
+  for (int begin = 0; begin < count; begin += kChunk) {
+    const int end = std::min(count, begin + kChunk);
+    for_range(parallel, begin, end, [&](int k) { work(k, k - begin); });
+    for (int k = begin; k < end; ++k) finish(k, k - begin);
+  }
+}
+
+}  // namespace
+
+struct FieldEnergy::Kinematics {
+  std::vector<Mat3Pack> F, rate;  // of all packs; the rate only with viscosity
+  Vector J;                       // det F of all points
+  Vector g, p;                    // volume constraint and pressure coefficients
+};
+
+FieldEnergy::FieldEnergy(FieldTable table, std::vector<std::shared_ptr<const Law>> laws,
+                         std::optional<PressureSpace> pressure, std::optional<KelvinVoigt> viscosity)
+    : table_(std::move(table)),
+      laws_(std::move(laws)),
+      pressure_(std::move(pressure)),
+      viscosity_(std::move(viscosity)),
+      first_pack_{0} {
+  if (pressure_) inverse_mass_ = InverseMass(*pressure_, table_);
+  for (const auto& block : table_.blocks) {
+    packed_.emplace_back(block, table_);
+    first_pack_.push_back(first_pack_.back() + packed_.back().num_packs());
+  }
+}
+
+FieldEnergy::Kinematics FieldEnergy::kinematics(const Motion& motion) const {
+  Kinematics kin;
+  const bool with_rate = viscosity_ && motion.rate;
+  kin.F.resize(first_pack_.back());
+  if (with_rate) kin.rate.resize(first_pack_.back());
+  kin.J.resize(table_.num_points());
+  for_range(table_.num_points() > kSerialPoints, 0, static_cast<int>(packed_.size()), [&](int k) {
+    const PackedBlock& block = packed_[k];
+    Mat3Pack* F = kin.F.data() + first_pack_[k];
+    if (with_rate)
+      block.field_and_rate(motion.c, *motion.rate, F, kin.rate.data() + first_pack_[k]);
+    else
+      block.field(motion.c, true, F);
+    for (int p = 0; p < block.num_packs(); ++p) {
+      const Pack J = determinant(F[p], cofactor(F[p]));
+      const auto [point, lanes] = block.points(p);
+      for (int lane = 0; lane < lanes; ++lane) kin.J[point + lane] = J[lane];
+    }
+  });
+  if (!pressure_) return kin;
+
+  kin.g = dilatation(*pressure_, table_, kin.J);
+  kin.p = motion.pressure ? *motion.pressure : penalty_pressure(kin.g);
+  return kin;
+}
+
+// Pressure at the points of a block, filled up to whole packs; empty without a pressure space.
+Vector FieldEnergy::point_pressure(const Vector& p, std::size_t k) const {
+  if (!pressure_) return {};
+  const auto& space = pressure_->blocks[k];
+  Vector out = Vector::Zero(kLanes * packed_[k].num_packs());
+  out.head(table_.blocks[k].count).noalias() = space.values.transpose() * p(space.functions);
+  return out;
+}
+
+// Response of all laws and of the pressure at one pack, times the integration weights.
+void FieldEnergy::respond(const Kinematics& kin, const Motion& motion, std::size_t k, const Vector& pressure,
+                          int pack, bool tangent, double rate_factor, PackResponse& r) const {
+  const PackPoints points = packed_[k].points(pack);
+  const int at = first_pack_[k] + pack;
+  clear(r, tangent);
+  for (const auto& law : laws_) {
+    if (&law == &laws_.front()) {
+      law->respond(points, kin.F[at], motion.state, tangent, r);
+      continue;
+    }
+    PackResponse own;
+    clear(own, tangent);
+    law->respond(points, kin.F[at], motion.state, tangent, own);
+    add(own, tangent, r);
+  }
+  if (!kin.rate.empty()) viscosity_->respond(points, kin.F[at], kin.rate[at], rate_factor, tangent, r);
+  if (pressure.size() > 0)
+    add_volumetric(
+        kin.F[at], cofactor(kin.F[at]),
+        {broadcast(0), load(pressure.data() + kLanes * static_cast<std::ptrdiff_t>(pack)), broadcast(0)},
+        tangent, r);
+  scale(packed_[k].weight(pack), tangent, r);
+}
+
+EnergyValue FieldEnergy::evaluate(const Motion& motion) const {
+  const Kinematics kin = kinematics(motion);
+  EnergyValue out;
+  out.gradient = Vector::Zero(table_.num_unknowns());
+  out.min_det = kin.J.minCoeff();
+  out.max_det = kin.J.maxCoeff();
+  if (pressure_) out.value = (motion.pressure ? 1.0 : 0.5) * kin.g.dot(kin.p);
+  if (motion.pressure) {
+    out.pressure_gradient = kin.g;
+    if (!pressure_->incompressible) {
+      const Vector strain = pressure_mass(*pressure_, table_, kin.p) / pressure_->bulk_modulus;
+      out.value -= 0.5 * kin.p.dot(strain);
+      out.pressure_gradient -= strain;
+    }
+  }
+  std::vector<double> energy(kChunk);
+  std::vector<Matrix> force(kChunk);
+  for_blocks(
+      table_.num_points() > kSerialPoints, static_cast<int>(packed_.size()),
+      [&](int k, int slot) {
+        const PackedBlock& block = packed_[k];
+        const Vector pressure = point_pressure(kin.p, k);
+        thread_local std::vector<Mat3Pack> P;
+        P.resize(block.num_packs());
+        Pack W = broadcast(0);
+        PackResponse r;
+        for (int pack = 0; pack < block.num_packs(); ++pack) {
+          respond(kin, motion, k, pressure, pack, false, 0, r);
+          W += r.W;
+          std::copy(r.P, r.P + 9, P[pack].m);
+        }
+        energy[slot] = sum(W);
+        block.force(P.data(), force[slot]);
+      },
+      [&](int k, int slot) {
+        out.value += energy[slot];
+        scatter(packed_[k].functions(), force[slot], out.gradient);
+      });
+  return out;
+}
+
+PointTerms FieldEnergy::point_terms(const Motion& motion) const {
+  const Kinematics kin = kinematics(motion);
+  PointTerms out;
+  out.value.resize(table_.num_points());
+  out.gradient = Matrix::Zero(table_.num_unknowns(), table_.num_points());
+  if (motion.pressure) out.pressure_gradient = Matrix::Zero(pressure_->num_functions, table_.num_points());
+  Matrix rows;
+  for (std::size_t k = 0; k < packed_.size(); ++k) {
+    const PackedBlock& block = packed_[k];
+    const PointBlock& points = table_.blocks[k];
+    const Vector pressure = point_pressure(kin.p, k);
+    std::vector<Mat3Pack> P(block.num_packs());
+    PackResponse r;
+    for (int pack = 0; pack < block.num_packs(); ++pack) {
+      respond(kin, motion, k, pressure, pack, false, 0, r);
+      std::copy(r.P, r.P + 9, P[pack].m);
+      const auto [point, lanes] = block.points(pack);
+      for (int lane = 0; lane < lanes; ++lane) out.value[point + lane] = r.W[lane];
+    }
+    block_force_rows(block, P.data(), Matrix::Identity(points.count, points.count), rows);
+    for (std::size_t a = 0; a < block.functions().size(); ++a)
+      out.gradient.block(3 * static_cast<Eigen::Index>(block.functions()[a]), points.first, 3, points.count) =
+          rows.middleCols<3>(static_cast<Eigen::Index>(3 * a)).transpose();
+    if (!motion.pressure) continue;
+    const auto& space = pressure_->blocks[k];
+    for (int q = 0; q < points.count; ++q) {
+      const int point = points.first + q;
+      double change = kin.J[point] - 1;
+      if (!pressure_->incompressible) change -= pressure[q] / pressure_->bulk_modulus;
+      out.pressure_gradient.col(point)(space.functions) =
+          table_.weights[point] * change * space.values.col(q);
+    }
+  }
+  return out;
+}
+
+void FieldEnergy::add_tangent(const Motion& motion, LinearSystem& system, double scale,
+                              double rate_factor) const {
+  const Motion used{motion.c, motion.state, rate_factor != 0 ? motion.rate : nullptr, motion.pressure};
+  const Kinematics kin = kinematics(used);
+  const bool global = pressure_ && !inverse_mass_.local();
+  Matrix D;
+  if (global) D = Matrix::Zero(pressure_->num_functions, table_.num_unknowns());
+  std::vector<Matrix> K(kChunk), rows(kChunk);
+  for_blocks(
+      true, static_cast<int>(packed_.size()),
+      [&](int k, int slot) {
+        const PackedBlock& block = packed_[k];
+        const Vector pressure = point_pressure(kin.p, k);
+        thread_local std::vector<PackResponse> responses;
+        responses.resize(block.num_packs());
+        for (int pack = 0; pack < block.num_packs(); ++pack) {
+          respond(kin, used, k, pressure, pack, true, rate_factor, responses[pack]);
+          mirror(responses[pack]);
+        }
+        if (!pressure_ && std::all_of(responses.begin(), responses.end(), without_tangent)) {
+          K[slot].resize(0, 0);
+          return;
+        }
+        block_stiffness(block, responses.data(), K[slot]);
+        if (scale != 1) K[slot] *= scale;
+        if (!pressure_) return;
+        std::vector<Mat3Pack> S(block.num_packs());
+        for (int pack = 0; pack < block.num_packs(); ++pack)
+          S[pack] = scaled_cofactor(kin.F[first_pack_[k] + pack], block.weight(pack));
+        block_force_rows(block, S.data(), pressure_->blocks[k].values, rows[slot]);
+        if (!global)
+          K[slot].noalias() += scale * pressure_->bulk_modulus * rows[slot].transpose() *
+                               (inverse_mass_.block(k) * rows[slot]);
+      },
+      [&](int k, int slot) {
+        if (K[slot].size() == 0) return;
+        const std::vector<int>& functions = packed_[k].functions();
+        system.add(functions, K[slot]);
+        if (!global) return;
+        const auto& pressures = pressure_->blocks[k].functions;
+        for (std::size_t b = 0; b < pressures.size(); ++b)
+          for (std::size_t a = 0; a < functions.size(); ++a)
+            D.row(pressures[b]).segment<3>(3 * functions[a]) +=
+                rows[slot].row(static_cast<Eigen::Index>(b)).segment<3>(static_cast<Eigen::Index>(3 * a));
+      });
+  if (global) system.add_gram(inverse_mass_.half(D), scale * pressure_->bulk_modulus);
+}
+
+Vector FieldEnergy::pressure(const Vector& c) const {
+  return kinematics({c}).p;
+}
+
+Vector FieldEnergy::penalty_pressure(const Vector& g) const {
+  return pressure_->bulk_modulus * inverse_mass_.apply(g);
+}
+
+Vector FieldEnergy::volume_change(const Vector& c, const Vector& u) const {
+  Vector out = Vector::Zero(pressure_->num_functions);
+  std::vector<Mat3Pack> F, change;
+  for (std::size_t k = 0; k < packed_.size(); ++k) {
+    const PackedBlock& block = packed_[k];
+    F.resize(block.num_packs());
+    change.resize(block.num_packs());
+    block.field(c, true, F.data());
+    block.field(u, false, change.data());
+    Vector at_points = Vector::Zero(table_.blocks[k].count);
+    for (int pack = 0; pack < block.num_packs(); ++pack) {
+      const Mat3Pack S = scaled_cofactor(F[pack], block.weight(pack));
+      Pack product = broadcast(0);
+      for (int i = 0; i < 9; ++i) product += S.m[i] * change[pack].m[i];
+      const auto [point, lanes] = block.points(pack);
+      for (int lane = 0; lane < lanes; ++lane)
+        at_points[point - table_.blocks[k].first + lane] = product[lane];
+    }
+    out(pressure_->blocks[k].functions) += pressure_->blocks[k].values * at_points;
+  }
+  return out;
+}
+
+Vector FieldEnergy::pressure_force(const Vector& c, const Vector& p) const {
+  Vector out = Vector::Zero(table_.num_unknowns());
+  std::vector<Mat3Pack> field;
+  Matrix force;
+  for (std::size_t k = 0; k < packed_.size(); ++k) {
+    const PackedBlock& block = packed_[k];
+    const Vector pressure = point_pressure(p, k);
+    field.resize(block.num_packs());
+    block.field(c, true, field.data());
+    for (int pack = 0; pack < block.num_packs(); ++pack)
+      field[pack] = scaled_cofactor(
+          field[pack],
+          block.weight(pack) * load(pressure.data() + kLanes * static_cast<std::ptrdiff_t>(pack)));
+    block.force(field.data(), force);
+    scatter(block.functions(), force, out);
+  }
+  return out;
+}
+
+}  // namespace polyaffine

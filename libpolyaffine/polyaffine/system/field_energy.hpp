@@ -1,0 +1,92 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <polyaffine/kinematics/packed_block.hpp>
+#include <polyaffine/linear/linear_system.hpp>
+#include <polyaffine/material/law.hpp>
+#include <polyaffine/material/viscosity.hpp>
+#include <polyaffine/system/pressure_space.hpp>
+
+namespace polyaffine {
+
+/// What an energy is evaluated at. `rate` (the time derivative of c) matters only where there is viscosity.
+/// `pressure` makes the coefficients of the pressure space independent (mixed form); without it they follow
+/// the displacement, p = κ M⁻¹ g(c) (condensed form).
+struct Motion {
+  const Vector& c;
+  PointState state = {};
+  const Vector* rate = nullptr;
+  const Vector* pressure = nullptr;
+};
+
+/// Value, gradient by c and the range of det M over the points; in the mixed form also the gradient by the
+/// pressures, g − M p/κ (mm³), or g where the space is incompressible.
+struct EnergyValue {
+  double value = 0;
+  Vector gradient;
+  Vector pressure_gradient;
+  double min_det = 1, max_det = 1;
+};
+
+/// The terms of an EnergyValue's sums over the points, a column (of `value`: a number) for each point. They
+/// sum to the gradient; in the mixed form also to the pressure gradient; `value` holds the energy of the
+/// laws.
+struct PointTerms {
+  Vector value;
+  Matrix gradient;           ///< unknowns × points
+  Matrix pressure_gradient;  ///< pressures × points
+};
+
+/// W(c) = Σ_q w_q Σ_laws W_law(M_q(c)) + W_vol, over the points of a field table, with gradient
+/// f_a = Σ_q w_q P_q row_a and tangent Σ_q w_q B_qᵀ A_q B_q. Units: µJ, mN, mN/mm for the wall; with the
+/// signed volume law on a surface table, mm³ and its derivatives.
+///
+/// The optional pressure space adds the volumetric energy (see PressureSpace); the optional viscosity adds
+/// its stress to the gradient (it has no energy) and `rate_factor` times its derivative by the rate to the
+/// tangent.
+class FieldEnergy {
+ public:
+  FieldEnergy(FieldTable table, std::vector<std::shared_ptr<const Law>> laws,
+              std::optional<PressureSpace> pressure = {}, std::optional<KelvinVoigt> viscosity = {});
+
+  const FieldTable& table() const { return table_; }
+  const std::optional<PressureSpace>& pressure_space() const { return pressure_; }
+
+  /// Value and gradient; when min_det ≤ 0 in a wall the numbers are not to be used.
+  EnergyValue evaluate(const Motion& motion) const;
+  /// What each point contributes, for the choice of fewer points (CubatureTraining).
+  PointTerms point_terms(const Motion& motion) const;
+  /// Adds scale × tangent to the system, K(c, p) + κ DᵀM⁻¹D with D = ∂g/∂c: the exact tangent of the
+  /// condensed form, and in the mixed form that of Newton's method after its pressure step is eliminated. The
+  /// dependence of viscous stress on c itself is not included (it vanishes with the step).
+  void add_tangent(const Motion& motion, LinearSystem& system, double scale = 1,
+                   double rate_factor = 0) const;
+  /// The pressure coefficients (kPa) of the condensed form at c.
+  Vector pressure(const Vector& c) const;
+
+  /// Parts of the mixed form, for an energy with a pressure space: κ M⁻¹ g, the change D(c) u of g along u,
+  /// and the force D(c)ᵀ p.
+  Vector penalty_pressure(const Vector& g) const;
+  Vector volume_change(const Vector& c, const Vector& u) const;
+  Vector pressure_force(const Vector& c, const Vector& p) const;
+
+ private:
+  struct Kinematics;
+  Kinematics kinematics(const Motion& motion) const;
+  void respond(const Kinematics& kin, const Motion& motion, std::size_t k, const Vector& pressure, int pack,
+               bool tangent, double rate_factor, PackResponse& r) const;
+  Vector point_pressure(const Vector& p, std::size_t k) const;
+
+  FieldTable table_;
+  std::vector<std::shared_ptr<const Law>> laws_;
+  std::optional<PressureSpace> pressure_;
+  std::optional<KelvinVoigt> viscosity_;
+  InverseMass inverse_mass_;
+  std::vector<PackedBlock> packed_;
+  std::vector<int> first_pack_;  // of each block, and their number
+};
+
+}  // namespace polyaffine
