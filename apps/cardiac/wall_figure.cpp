@@ -27,8 +27,8 @@ Figure wall_figure(const Ventricle& ventricle, const Protocol& protocol, const H
   const auto map = vertex_displacement(ventricle);
   const auto panel = [&](const HeartState& state, const std::string& title) {
     const polyaffine::Points x = anatomy.mesh.points() + map.apply(state.c);
-    const std::string note = display_text(state.volume_mm3 / mm3_per_mL, 0) + " mL, " +
-                             display_text(state.pressure_kPa / kPa_per_mmHg, 0) + " mmHg";
+    const std::string note = display_text(state.volumes_mm3[0] / mm3_per_mL, 0) + " mL, " +
+                             display_text(state.pressures_kPa[0] / kPa_per_mmHg, 0) + " mmHg";
     return WallPanel{title, note, picture.cut.positions(x), {}};
   };
   const KeyStates key = key_states(path, protocol);

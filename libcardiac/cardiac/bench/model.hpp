@@ -46,7 +46,7 @@ class BenchModel {
   protocol::Reduction reduction_;
   Ventricle ventricle_;
   std::vector<WallLoad> path_;
-  std::unique_ptr<polyaffine::LinearSystem> system_;
+  std::unique_ptr<polyaffine::LinearSystem> linear_;
   double setup_s_ = 0;
 };
 

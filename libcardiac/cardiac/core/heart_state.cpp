@@ -2,18 +2,10 @@
 
 namespace cardiac {
 
-using polyaffine::Vector;
-
-Vector circulation_states(const HeartState& s) {
-  if (s.loop.size() == 0) return Vector{{s.volume_mm3, s.capacitor_pressure_kPa}};
-  Vector out(3 + s.loop.size());
-  out << s.volume_mm3, s.right_volume_mm3, s.capacitor_pressure_kPa, s.loop;
+polyaffine::Vector HeartState::circulation() const {
+  polyaffine::Vector out(volumes_mm3.size() + vessels_kPa.size());
+  out << volumes_mm3, vessels_kPa;
   return out;
-}
-
-Vector cavity_pressures(const HeartState& s) {
-  if (s.loop.size() == 0) return Vector{{s.pressure_kPa}};
-  return Vector{{s.pressure_kPa, s.right_pressure_kPa}};
 }
 
 }  // namespace cardiac

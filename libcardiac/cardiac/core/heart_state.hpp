@@ -4,19 +4,15 @@
 
 namespace cardiac {
 
-/// One state of the coupled heart; coefficients of the wall, mm³, kPa, ms from the start of the beat.
+/// One state of the coupled heart. Cavities are numbered as in the model's list, the left ventricle first.
 struct HeartState {
-  double time_ms = 0;
-  polyaffine::Vector c;
-  double volume_mm3 = 0, pressure_kPa = 0, capacitor_pressure_kPa = 0;  ///< of the left ventricle
-  double right_volume_mm3 = 0, right_pressure_kPa = 0;
-  /// Pressures of the closed loop of two ventricles, kPa: pulmonary arteries, pulmonary veins, systemic veins
-  /// (those of the systemic arteries are capacitor_pressure_kPa); empty with one ventricle.
-  polyaffine::Vector loop{};
-};
+  double time_ms = 0;                                 ///< from the start of the beat
+  polyaffine::Vector c;                               ///< coefficients of the wall, mm
+  polyaffine::Vector volumes_mm3{}, pressures_kPa{};  ///< of the cavities
+  polyaffine::Vector vessels_kPa{};  ///< pressures of the circulation's vessels; empty without a circulation
 
-/// States and cavity pressures of a state as of CirculationModel.
-polyaffine::Vector circulation_states(const HeartState& state);
-polyaffine::Vector cavity_pressures(const HeartState& state);
+  /// The states of a CirculationModel: volumes, then pressures of vessels.
+  polyaffine::Vector circulation() const;
+};
 
 }  // namespace cardiac

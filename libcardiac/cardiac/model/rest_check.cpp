@@ -1,6 +1,7 @@
 #include "cardiac/model/rest_check.hpp"
 
 #include <polyaffine/core/error.hpp>
+#include <polyaffine/system/linearised.hpp>
 
 namespace cardiac {
 
@@ -19,16 +20,16 @@ std::string text_of(const protocol::Reduction& r, std::size_t points, int unknow
 }  // namespace
 
 void check_rest(const Ventricle& ventricle, const Protocol& protocol) {
-  const auto system = ventricle.make_system();
-  const Vector rest = Vector::Zero(ventricle.num_coefficients());
   // Without contraction: what a passive wall resists. Tensions of zero where its laws want them.
-  const Vector tension =
-      ventricle.contraction ? Vector::Zero(ventricle.contraction->delay_ms.size()).eval() : Vector();
-  system->set_zero();
-  ventricle.wall->add_tangent(
-      {rest, polyaffine::PointState(tension.data(), static_cast<std::size_t>(tension.size()))}, *system);
-  for (const auto& spring : ventricle.springs) spring->add_tangent({rest}, *system);
-  if (system->factorise() && system->positive_definite()) return;
+  const auto no_tension =
+      ventricle.contraction
+          ? polyaffine::constant_values(Vector::Zero(ventricle.contraction->delay_ms.size()))
+          : nullptr;
+  const polyaffine::System system = wall_system(ventricle, no_tension);
+  const auto linear = system.make_linear();
+  const Vector rest = Vector::Zero(system.size());
+  polyaffine::Linearised at_rest(system, *linear);
+  if (at_rest.factorise({0, rest}, 0) && at_rest.positive_definite()) return;
   const auto& d = ventricle.discretisation;
   throw polyaffine::InputError(
       "reduction: the wall at rest resists some motions with nothing or less (its stiffness is not positive "

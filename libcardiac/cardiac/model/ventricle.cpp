@@ -4,12 +4,12 @@
 #include <algorithm>
 
 #include <cardiac/activation/activation.hpp>
-#include <cardiac/anatomy/right_ventricle.hpp>
 #include <cardiac/model/vertex_displacement.hpp>
 #include <cardiac/protocol/contraction_time.hpp>
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/material/signed_volume.hpp>
-#include <polyaffine/material/springs.hpp>
+#include <polyaffine/system/sparse_field.hpp>
+#include <polyaffine/system/support.hpp>
 
 namespace cardiac {
 
@@ -91,23 +91,15 @@ std::shared_ptr<const ContractionField> build_contraction(const Anatomy& anatomy
   return std::make_shared<ContractionField>(std::move(out));
 }
 
-std::shared_ptr<const FieldEnergy> normal_spring(const polyaffine::Basis& basis,
-                                                 const polyaffine::SurfacePoints& points, double stiffness) {
+std::shared_ptr<const polyaffine::Term> epicardial_support(const polyaffine::Basis& basis,
+                                                           const polyaffine::SurfacePoints& points,
+                                                           const protocol::Boundary& boundary) {
   polyaffine::Points normals(3, points.X.cols());
   for (Eigen::Index q = 0; q < points.X.cols(); ++q)
     normals.col(q) = Vec3(points.X_xi.col(q)).cross(Vec3(points.X_eta.col(q))).normalized();
-  return std::make_shared<FieldEnergy>(
+  return std::make_shared<polyaffine::Support>(
       polyaffine::displacement_table(basis, points),
-      std::vector<std::shared_ptr<const polyaffine::Law>>{
-          std::make_shared<polyaffine::SurfaceSpring>(stiffness, std::move(normals))});
-}
-
-std::shared_ptr<const FieldEnergy> cavity_volume(const polyaffine::Basis& basis,
-                                                 const polyaffine::SurfacePoints& points,
-                                                 const Vec3& base_centre) {
-  return std::make_shared<FieldEnergy>(polyaffine::surface_table(basis, points, base_centre),
-                                       std::vector<std::shared_ptr<const polyaffine::Law>>{
-                                           std::make_shared<polyaffine::SignedVolume>(1.0 / 3)});
+      polyaffine::SupportParameters{boundary.epicardial_stiffness_kPa_per_mm, 0, std::move(normals)});
 }
 
 }  // namespace
@@ -118,18 +110,21 @@ Vector ContractionField::tension(double time_ms) const {
   return tension;
 }
 
-std::unique_ptr<polyaffine::LinearSystem> Ventricle::make_system() const {
-  if (!discretisation.sparse) return polyaffine::dense_system(num_coefficients(), discretisation.fixed);
-  std::vector<const polyaffine::FieldTable*> tables{&wall->table()};
-  for (const FieldEnergy* one : cavities()) tables.push_back(&one->table());
-  for (const auto& spring : springs) tables.push_back(&spring->table());
-  return polyaffine::sparse_system(tables, discretisation.fixed);
+Cavity cavity_of(const polyaffine::Basis& basis, const CavitySurface& surface) {
+  return {surface.name,
+          std::make_shared<FieldEnergy>(polyaffine::surface_table(basis, surface.points, surface.base_centre),
+                                        std::vector<std::shared_ptr<const polyaffine::Law>>{
+                                            std::make_shared<polyaffine::SignedVolume>(1.0 / 3)})};
 }
 
-std::vector<const FieldEnergy*> Ventricle::cavities() const {
-  std::vector<const FieldEnergy*> out;
-  for (const auto* one : {&cavity, &right_cavity})
-    if (*one) out.push_back(one->get());
+polyaffine::PointValues Ventricle::tension() const {
+  if (!contraction) return {};
+  return polyaffine::remembered([field = contraction](double t) { return field->tension(t); });
+}
+
+Vector Ventricle::cavity_volumes(const Vector& c) const {
+  Vector out(std::ssize(cavities));
+  for (Eigen::Index k = 0; k < out.size(); ++k) out[k] = cavity_volume(c, static_cast<std::size_t>(k));
   return out;
 }
 
@@ -149,54 +144,48 @@ Ventricle assemble_ventricle(std::shared_ptr<const Anatomy> anatomy, const Proto
   if (!factors.stiffness.empty()) ++out.built["regions"];
   out.wall = build_wall(*anatomy, protocol, d, factors, out.built);
   ++out.built[d.sparse ? "full order" : "reduction"];
-  if (!d.cavity_points.tet.empty()) {
-    ++out.built["cavity"];
-    out.cavity = cavity_volume(*d.basis, d.cavity_points, anatomy->coordinates->base_centre());
-  }
-  if (!d.right_cavity_points.tet.empty())
-    out.right_cavity =
-        cavity_volume(*d.basis, d.right_cavity_points, anatomy->coordinates->right()->base_centre());
+  if (!d.cavities.empty()) ++out.built["cavity"];
+  for (const CavitySurface& surface : d.cavities) out.cavities.push_back(cavity_of(*d.basis, surface));
   if (!d.epicardium_points.tet.empty())
-    out.springs.push_back(
-        normal_spring(*d.basis, d.epicardium_points, protocol.boundary.epicardial_stiffness_kPa_per_mm));
+    out.supports.push_back(epicardial_support(*d.basis, d.epicardium_points, protocol.boundary));
   if (protocol.contraction)
     out.contraction = build_contraction(*anatomy, protocol, d.points, factors, out.built);
   out.anatomy = std::move(anatomy);
   return out;
 }
 
-polyaffine::EquilibriumProblem loaded_ventricle(const Ventricle& ventricle, const WallLoad& load) {
-  return loaded_ventricle(ventricle, {0, Vector::Zero(load.tension.size())}, load);
+polyaffine::System wall_system(const Ventricle& ventricle, polyaffine::PointValues tension,
+                               double tolerance_mm) {
+  polyaffine::System out = polyaffine::field_system(ventricle.num_coefficients(),
+                                                    {polyaffine::solid(ventricle.wall, std::move(tension))},
+                                                    ventricle.discretisation.fixed, tolerance_mm);
+  if (ventricle.discretisation.sparse) out.linear = polyaffine::sparse_field;
+  out.terms.insert(out.terms.end(), ventricle.supports.begin(), ventricle.supports.end());
+  return out;
 }
 
-polyaffine::EquilibriumProblem loaded_ventricle(const Ventricle& ventricle, const WallLoad& from,
-                                                const WallLoad& to) {
-  polyaffine::EquilibriumProblem problem;
-  polyaffine::PotentialTerm wall{ventricle.wall};
-  if (to.tension.size() > 0) {
-    const auto now = std::make_shared<Vector>(to.tension.size());
-    wall.state = [begin = from.tension, end = to.tension, now](double load) {
-      *now = (1 - load) * begin + load * end;
-      return polyaffine::PointState(now->data(), now->size());
-    };
-  }
-  problem.terms.push_back(std::move(wall));
-  const auto press = [&](const std::shared_ptr<const FieldEnergy>& cavity, double p0, double p1) {
-    if (!cavity || (p0 == 0 && p1 == 0)) return;
-    polyaffine::PotentialTerm term{cavity};
-    term.scale = [p0, p1](double load) { return -(1 - load) * p0 - load * p1; };
-    term.wall = false;
-    problem.terms.push_back(std::move(term));
-  };
-  press(ventricle.cavity, from.pressure_kPa, to.pressure_kPa);
-  press(ventricle.right_cavity, from.right_pressure_kPa, to.right_pressure_kPa);
-  for (const auto& spring : ventricle.springs) {
-    polyaffine::PotentialTerm term{spring};
-    term.wall = false;
-    problem.terms.push_back(std::move(term));
-  }
-  problem.fixed = ventricle.discretisation.fixed;
-  return problem;
+polyaffine::System pressed_system(const Ventricle& ventricle, polyaffine::PointValues tension,
+                                  const std::vector<polyaffine::FieldTerm::Scale>& pressures_kPa,
+                                  double tolerance_mm) {
+  polyaffine::System out = wall_system(ventricle, std::move(tension), tolerance_mm);
+  for (std::size_t k = 0; k < std::min(pressures_kPa.size(), ventricle.cavities.size()); ++k)
+    out.terms.push_back(
+        polyaffine::load(ventricle.cavities[k].volume, [p = pressures_kPa[k]](double t) { return -p(t); }));
+  return out;
+}
+
+polyaffine::System loaded_ventricle(const Ventricle& ventricle, const WallLoad& load) {
+  return loaded_ventricle(ventricle,
+                          {Vector::Zero(load.pressures_kPa.size()), Vector::Zero(load.tension.size())}, load);
+}
+
+polyaffine::System loaded_ventricle(const Ventricle& ventricle, const WallLoad& from, const WallLoad& to) {
+  std::vector<polyaffine::FieldTerm::Scale> pressures;
+  for (Eigen::Index k = 0; k < to.pressures_kPa.size(); ++k)
+    pressures.emplace_back(
+        [p0 = from.pressures_kPa[k], p1 = to.pressures_kPa[k]](double t) { return (1 - t) * p0 + t * p1; });
+  return pressed_system(
+      ventricle, to.tension.size() > 0 ? polyaffine::ramp(from.tension, to.tension) : nullptr, pressures);
 }
 
 }  // namespace cardiac

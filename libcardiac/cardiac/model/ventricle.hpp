@@ -5,7 +5,8 @@
 
 #include <cardiac/contraction/bestel_2001.hpp>
 #include <cardiac/model/wall.hpp>
-#include <polyaffine/solve/equilibrium.hpp>
+#include <polyaffine/system/field_term.hpp>
+#include <polyaffine/system/system.hpp>
 
 namespace cardiac {
 
@@ -20,26 +21,36 @@ struct ContractionField {
   polyaffine::Vector tension(double time_ms) const;
 };
 
+/// A cavity and the energy of the wall's coefficients that is its volume, mm³.
+struct Cavity {
+  std::string name;
+  std::shared_ptr<const polyaffine::FieldEnergy> volume;
+};
+
 /// One or two ventricles assembled from the parts that a protocol names, full order or reduced; parts it does
-/// not name are null. Immutable once built.
+/// not name are not there. Immutable once built.
 struct Ventricle {
   std::shared_ptr<const Anatomy> anatomy;
   Discretisation discretisation;
   std::shared_ptr<const polyaffine::FieldEnergy> wall;
-  std::shared_ptr<const polyaffine::FieldEnergy> cavity;        ///< of the left ventricle: its volume, mm³
-  std::shared_ptr<const polyaffine::FieldEnergy> right_cavity;  ///< null without a right ventricle
-  std::vector<std::shared_ptr<const polyaffine::FieldEnergy>> springs;
+  std::vector<Cavity> cavities;  ///< in the order of Discretisation::cavities
+  polyaffine::Terms supports;    ///< what holds the wall's surfaces
   std::shared_ptr<const ContractionField> contraction;
   std::shared_ptr<const Ventricle> all_points;  ///< the same without a trained rule; null where there is none
   BuildCount built;
 
   int num_coefficients() const { return wall->table().num_unknowns(); }
-  double cavity_volume(const polyaffine::Vector& c) const { return cavity->evaluate({c}).value; }
-  /// The cavities that there are, left before right.
-  std::vector<const polyaffine::FieldEnergy*> cavities() const;
-  /// A system with the pattern of the wall, the cavities and the springs.
-  std::unique_ptr<polyaffine::LinearSystem> make_system() const;
+  double cavity_volume(const polyaffine::Vector& c, std::size_t cavity = 0) const {
+    return cavities.at(cavity).volume->evaluate({c}).value;
+  }
+  /// Of all cavities, mm³.
+  polyaffine::Vector cavity_volumes(const polyaffine::Vector& c) const;
+  /// Active tension of every point at a time, kPa; empty without contraction.
+  polyaffine::PointValues tension() const;
 };
+
+/// The cavity behind a surface, on functions.
+Cavity cavity_of(const polyaffine::Basis& basis, const CavitySurface& surface);
 
 /// Shape functions and integration points of a protocol's model; `trained` points are all their candidates.
 Discretisation discretise(const std::shared_ptr<const Anatomy>& anatomy, const Protocol& protocol,
@@ -48,19 +59,27 @@ Discretisation discretise(const std::shared_ptr<const Anatomy>& anatomy, const P
 Ventricle assemble_ventricle(std::shared_ptr<const Anatomy> anatomy, const Protocol& protocol,
                              Discretisation discretisation);
 
-/// What loads a wall: cavity pressure and active tension of every point (empty: none), kPa.
+/// What loads a wall: pressure of every cavity and active tension of every point (empty: none), kPa.
 struct WallLoad {
-  double pressure_kPa = 0;
+  polyaffine::Vector pressures_kPa{};
   polyaffine::Vector tension{};
-  double right_pressure_kPa = 0;
 };
 
-/// The equilibrium on the straight way between two loads: `from` at load parameter 0, `to` at 1. Tensions are
-/// both empty or both of all points.
-polyaffine::EquilibriumProblem loaded_ventricle(const Ventricle& ventricle, const WallLoad& from,
-                                                const WallLoad& to);
+/// The equation of a wall and what holds it, without loads, at the active tension τ(t): ∂W/∂c(c, ċ, τ) +
+/// supports = 0, over the block "displacement" with a tolerance of time integration.
+polyaffine::System wall_system(const Ventricle& ventricle, polyaffine::PointValues tension = {},
+                               double tolerance_mm = 0);
+
+/// The same under pressures p(t) in the cavities, − Σ p ∂V/∂c. Cavities without a pressure have none.
+polyaffine::System pressed_system(const Ventricle& ventricle, polyaffine::PointValues tension,
+                                  const std::vector<polyaffine::FieldTerm::Scale>& pressures_kPa,
+                                  double tolerance_mm = 0);
+
+/// The equilibrium on the straight way between two loads: `from` at t = 0, `to` at t = 1. Tensions are both
+/// empty or both of all points.
+polyaffine::System loaded_ventricle(const Ventricle& ventricle, const WallLoad& from, const WallLoad& to);
 
 /// The whole load ramped up from zero.
-polyaffine::EquilibriumProblem loaded_ventricle(const Ventricle& ventricle, const WallLoad& load);
+polyaffine::System loaded_ventricle(const Ventricle& ventricle, const WallLoad& load);
 
 }  // namespace cardiac

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include <polyaffine/core/error.hpp>
+#include <polyaffine/system/linearised.hpp>
 
 namespace cardiac {
 namespace {
@@ -32,16 +33,15 @@ Protocol passive(Protocol protocol, double poisson) {
 }
 
 double compliance(const Ventricle& ventricle) {
-  const Vector rest = Vector::Zero(ventricle.num_coefficients());
-  const auto system = ventricle.make_system();
-  system->set_zero();
-  ventricle.wall->add_tangent({rest}, *system);
-  if (!system->factorise())
+  const polyaffine::System system = wall_system(ventricle);
+  const auto linear = system.make_linear();
+  const Vector rest = Vector::Zero(system.size());
+  if (!polyaffine::Linearised(system, *linear).factorise({0, rest}, 0))
     throw polyaffine::ComputationError("volume check: the stiffness of the wall at rest is singular");
   double sum = 0;
-  for (const auto* cavity : ventricle.cavities()) {
-    const Vector load = cavity->evaluate({rest}).gradient;
-    sum += load.dot(system->solve(load).col(0));
+  for (const Cavity& cavity : ventricle.cavities) {
+    const Vector load = cavity.volume->evaluate({rest}).gradient;
+    sum += load.dot(linear->solve(load).col(0));
   }
   return sum;
 }

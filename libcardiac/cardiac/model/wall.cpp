@@ -13,6 +13,7 @@
 #include <polyaffine/material/mooney_rivlin.hpp>
 #include <polyaffine/material/neo_hookean.hpp>
 #include <polyaffine/material/saint_venant_kirchhoff.hpp>
+#include <polyaffine/material/viscosity.hpp>
 #include <polyaffine/material/volumetric.hpp>
 
 namespace cardiac {
@@ -137,10 +138,9 @@ std::shared_ptr<const polyaffine::FieldEnergy> build_wall(const Anatomy& anatomy
       pressure->bulk_modulus -= local;
     }
   }
-  std::optional<polyaffine::KelvinVoigt> viscosity;
-  if (tissue.viscosity_kPa_ms > 0 && protocol.contraction) viscosity.emplace(tissue.viscosity_kPa_ms);
-  return std::make_shared<polyaffine::FieldEnergy>(std::move(table), std::move(laws), std::move(pressure),
-                                                   std::move(viscosity));
+  if (tissue.viscosity_kPa_ms > 0 && protocol.contraction)
+    laws.push_back(std::make_shared<polyaffine::KelvinVoigt>(tissue.viscosity_kPa_ms));
+  return std::make_shared<polyaffine::FieldEnergy>(std::move(table), std::move(laws), std::move(pressure));
 }
 
 }  // namespace cardiac

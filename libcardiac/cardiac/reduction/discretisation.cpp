@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <cardiac/anatomy/idealised.hpp>
+#include <cardiac/anatomy/right_ventricle.hpp>
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/kinematics/lagrange.hpp>
 
@@ -64,10 +65,13 @@ Anatomy build_anatomy(polyaffine::TetMesh mesh, const Protocol& protocol, const 
 void add_surface_points(const Anatomy& anatomy, const Protocol& protocol, const LagrangeBasis& geometry,
                         const FaceRule& rule, Discretisation& discretisation) {
   const auto points = [&](int label) { return geometry.surface_points(anatomy.mesh, {label}, rule); };
-  if (protocol.circulation || protocol.cavities)
-    discretisation.cavity_points = turned(points(anatomy.labels.endo));
-  if (anatomy.labels.rv_endo && !discretisation.cavity_points.tet.empty())
-    discretisation.right_cavity_points = turned(points(*anatomy.labels.rv_endo));
+  if (protocol.circulation || protocol.cavities) {
+    const VentricularCoordinates& heart = *anatomy.coordinates;
+    discretisation.cavities.push_back({"lv", turned(points(anatomy.labels.endo)), heart.base_centre()});
+    if (anatomy.labels.rv_endo)
+      discretisation.cavities.push_back(
+          {"rv", turned(points(*anatomy.labels.rv_endo)), heart.right()->base_centre()});
+  }
   if (protocol.boundary.epicardial_stiffness_kPa_per_mm > 0)
     discretisation.epicardium_points = points(anatomy.labels.epi);
 }

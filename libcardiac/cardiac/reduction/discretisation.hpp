@@ -39,6 +39,14 @@ struct ExactGeometry {
 /// is for another number of ventricles.
 Anatomy build_anatomy(polyaffine::TetMesh mesh, const Protocol& protocol, const ExactGeometry& exact = {});
 
+/// The surface of a cavity: its points, tangents turned so that X_ξ × X_η leaves the cavity, and the centre
+/// of its base, mm.
+struct CavitySurface {
+  std::string name;  ///< "lv", "rv"
+  polyaffine::SurfacePoints points;
+  polyaffine::Vec3 base_centre = polyaffine::Vec3::Zero();
+};
+
 /// Shape functions with their integration points: a full-order or a reduced model of the same wall.
 struct Discretisation {
   std::shared_ptr<const polyaffine::Basis> basis;
@@ -49,12 +57,10 @@ struct Discretisation {
   std::shared_ptr<const polyaffine::FrameField>
       pressure_frames;  ///< weights of pressures, a partition of unity up to the base; null for full order
   polyaffine::WallPoints points;
-  polyaffine::SurfacePoints
-      cavity_points;  ///< endocardium, tangents turned so that X_ξ × X_η leaves the cavity
-  polyaffine::SurfacePoints right_cavity_points;  ///< the same of the right ventricle; empty without one
-  polyaffine::SurfacePoints epicardium_points;    ///< empty unless a spring acts there
-  std::vector<char> fixed;                        ///< unknowns held at zero
-  int num_unknowns = 0;                           ///< that are not fixed
+  std::vector<CavitySurface> cavities;          ///< that have a load: the left ventricle's first
+  polyaffine::SurfacePoints epicardium_points;  ///< empty unless a spring acts there
+  std::vector<char> fixed;                      ///< unknowns held at zero
+  int num_unknowns = 0;                         ///< that are not fixed
   bool sparse = false;
 };
 

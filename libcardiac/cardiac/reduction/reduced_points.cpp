@@ -219,6 +219,14 @@ WallPoints subset(const WallPoints& points, const std::vector<int>& which) {
   return out;
 }
 
+// The surfaces that have points.
+std::vector<SurfacePoints*> surfaces_of(Discretisation& d) {
+  std::vector<SurfacePoints*> out;
+  for (CavitySurface& cavity : d.cavities) out.push_back(&cavity.points);
+  if (!d.epicardium_points.tet.empty()) out.push_back(&d.epicardium_points);
+  return out;
+}
+
 }  // namespace
 
 void add_reduced_points(const Anatomy& anatomy, const Protocol& protocol, Discretisation& out) {
@@ -227,7 +235,6 @@ void add_reduced_points(const Anatomy& anatomy, const Protocol& protocol, Discre
   const bool all_points = protocol.reduction.integration == protocol::Integration::gauss;
   const Counts counts = counts_for(degrees(*out.frame_basis, out.layout.cap()),
                                    std::ssize(out.layout.rings) > kAhaRings, !out.frames);
-  const auto surfaces = {&out.cavity_points, &out.right_cavity_points, &out.epicardium_points};
   if (!out.frames) {  // sigmoid weights: regions are no boxes
     const WallPoints candidates = geometry.wall_points(kCandidateDegree);
     const Cells cells = region_cells(anatomy, out, candidates);
@@ -239,8 +246,7 @@ void add_reduced_points(const Anatomy& anatomy, const Protocol& protocol, Discre
           return rule;
         },
         out);
-    for (SurfacePoints* points : surfaces) {
-      if (points->tet.empty()) continue;
+    for (SurfacePoints* points : surfaces_of(out)) {
       const Cells own = region_cells(
           anatomy, out, WallPoints{points->tet, points->barycentric, points->weights, points->starts});
       *points =
@@ -260,8 +266,7 @@ void add_reduced_points(const Anatomy& anatomy, const Protocol& protocol, Discre
   const auto surface_counts = [&](int cell) {
     return cells.at_apex(cell) ? counts.surface_at_apex : counts.surface;
   };
-  for (SurfacePoints* points : surfaces) {
-    if (points->tet.empty()) continue;
+  for (SurfacePoints* points : surfaces_of(out)) {
     const Cells own = tent_cells(cells, *points);
     *points = polyaffine::gauss_surface_cells(*points, own.cell, own.place.topRows<2>(), cells,
                                               surface_counts, counts.exact[0], geometry);

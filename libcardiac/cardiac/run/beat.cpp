@@ -7,7 +7,7 @@
 #include <iterator>
 #include <sstream>
 
-#include "cardiac/model/beat_system.hpp"
+#include "cardiac/model/coupled_heart.hpp"
 #include "cardiac/run/beat_instants.hpp"
 #include "cardiac/run/checkpoint.hpp"
 #include "cardiac/run/statics.hpp"
@@ -62,28 +62,41 @@ std::shared_ptr<const CirculationModel> circulation_model(bool two_ventricles,
 
 namespace {
 
+// Of the cavities, kPa.
+Vector filling_pressures(const Ventricle& ventricle, const protocol::Circulation& c) {
+  const Vector both{{c.filling_pressure_mmHg, c.right_filling_pressure_mmHg}};
+  return kPa_per_mmHg * both.head(std::ssize(ventricle.cavities));
+}
+
 // The state of a wall filled to the atrial pressures.
 HeartState filled_state(const Ventricle& ventricle, const protocol::Circulation& c, const Vector& at) {
-  HeartState out{0, at, ventricle.cavity_volume(at), c.filling_pressure_mmHg * kPa_per_mmHg,
-                 c.initial_aortic_pressure_mmHg * kPa_per_mmHg};
-  if (!ventricle.right_cavity) return out;
-  out.right_volume_mm3 = ventricle.right_cavity->evaluate({at}).value;
-  out.right_pressure_kPa = c.right_filling_pressure_mmHg * kPa_per_mmHg;
-  out.loop = Vector(3);
-  out.loop << c.initial_pulmonary_pressure_mmHg, c.filling_pressure_mmHg, c.right_filling_pressure_mmHg;
-  out.loop *= kPa_per_mmHg;
+  HeartState out{0, at, ventricle.cavity_volumes(at), filling_pressures(ventricle, c)};
+  out.vessels_kPa = Vector{{c.initial_aortic_pressure_mmHg}};
+  if (ventricle.cavities.size() > 1)
+    out.vessels_kPa = Vector{{c.initial_aortic_pressure_mmHg, c.initial_pulmonary_pressure_mmHg,
+                              c.filling_pressure_mmHg, c.right_filling_pressure_mmHg}};
+  out.vessels_kPa *= kPa_per_mmHg;
   return out;
+}
+
+void add_cost(const polyaffine::SystemCost& more, SolveCost& sum) {
+  sum.residuals += more.residuals;
+  sum.factorisations += more.factorisations;
+  sum.linear_solves += more.linear_solves;
+  sum.residual_s += more.residual_s;
+  sum.tangent_s += more.tangent_s;
+  sum.factorisation_s += more.factorisation_s;
+  sum.linear_solve_s += more.linear_solve_s;
 }
 
 // The wall in equilibrium at the filling pressure. On failure the path says so.
 bool fill(const Ventricle& ventricle, const protocol::Circulation& circulation, const Vector& tension,
           const RunControl& control, HeartPath& path, Vector& c) {
-  const auto problem = loaded_ventricle(ventricle, {circulation.filling_pressure_mmHg * kPa_per_mmHg, tension,
-                                                    circulation.right_filling_pressure_mmHg * kPa_per_mmHg});
-  const auto system = ventricle.make_system();
+  const polyaffine::System system =
+      loaded_ventricle(ventricle, {filling_pressures(ventricle, circulation), tension});
   polyaffine::LoadOptions options;
   options.interrupted = [&] { return stop_wanted(control); };
-  const auto report = polyaffine::load_stepping(problem, *system, c, options);
+  const auto report = polyaffine::load_stepping(system, *system.make_linear(), c, options);
   path.newton_iterations += report.iterations;
   path.cuts += report.cuts;
   warn_of_instability(report, "filling pressure", path);
@@ -95,9 +108,9 @@ bool fill(const Ventricle& ventricle, const protocol::Circulation& circulation, 
 }
 
 double stroke_volume(const std::vector<HeartState>& steps) {
-  const auto by_volume = [](const HeartState& a, const HeartState& b) { return a.volume_mm3 < b.volume_mm3; };
-  const auto [low, high] = std::minmax_element(steps.begin(), steps.end(), by_volume);
-  return high->volume_mm3 - low->volume_mm3;
+  const auto volume = [](const HeartState& s) { return s.volumes_mm3[0]; };
+  const auto [low, high] = std::ranges::minmax_element(steps, {}, volume);
+  return volume(*high) - volume(*low);
 }
 
 // Beats that the slowest arteries need to come nearer by their whole distance, 1/(1 − e^(−T/RC)).
@@ -147,20 +160,20 @@ std::string unclosed_warning(const HeartPath& path, int volumes, const Protocol&
 }
 
 // Begins the next beat with the vessels' pressures of the estimated limit, from what the last one ended with.
-void extrapolate(BeatSystem& system, double t, const HeartPath& path, Vector& y, Vector& rate) {
-  const CycleEstimate limit = estimate_limit_cycle(path.cycle, system.num_cavities());
+void extrapolate(const CoupledHeart& heart, double t, HeartPath& path, Vector& y, Vector& rate) {
+  const CycleEstimate limit = estimate_limit_cycle(path.cycle, heart.num_cavities());
   if (!limit.extrapolated) return;
   Vector wanted = limit.pressures_kPa;
-  if (system.circulation().is_closed()) {
-    const Vector compliances = system.circulation().compliances().tail(wanted.size());
-    wanted.array() += compliances.dot(system.vessels(y) - wanted) / compliances.sum();
+  if (heart.circulation->is_closed()) {
+    const Vector compliances = heart.circulation->compliances().tail(wanted.size());
+    wanted.array() += compliances.dot(heart.vessels.of(y) - wanted) / compliances.sum();
   }
-  system.vessels(y) = wanted;
-  system.restart_consistently(t, y, rate);
+  heart.vessels.of(y) = wanted;
+  add_cost(make_consistent(heart, t, y, rate), path.cost);
 }
 
 // The beat that the path has come to, from and to (y, rate). False, with the reason, when it stopped.
-bool run_beat(BeatSystem& system, const Protocol& protocol, const ContractionField& contraction,
+bool run_beat(const CoupledHeart& heart, const Protocol& protocol, const ContractionField& contraction,
               const RunControl& control, Vector& y, Vector& rate, HeartPath& path) {
   const double period = contraction.curve.period_ms(), onset_ms = contraction_onset_ms(contraction);
   const int beat = path.beats;
@@ -168,11 +181,11 @@ bool run_beat(BeatSystem& system, const Protocol& protocol, const ContractionFie
   const double interval = protocol.output.interval_ms;
   const int most = most_steps(protocol.time, period);
   path.beat_start_ms = begin;
-  path.steps = {system.unpack(begin, begin, y)};
+  path.steps = {heart.unpack(0, y)};
   path.outputs = path.steps;
-  polyaffine::DaeIntegrator ida(system, system.options(protocol.time), begin, y, rate);
-  BeatInstants instants(system, begin, onset_ms, y, path);
-  CycleBeat cycle{system.states(y), {}, 0};
+  polyaffine::DaeIntegrator ida(heart.system, dae_options(protocol.time), begin, y, rate);
+  BeatInstants instants(heart, begin, onset_ms, y, path);
+  CycleBeat cycle{heart.states(y), {}, 0};
   std::string stop;
   while (stop.empty() && ida.time() < end - 1e-9 * period) {
     const double from = ida.time();
@@ -180,17 +193,17 @@ bool run_beat(BeatSystem& system, const Protocol& protocol, const ContractionFie
       stop = ida.failure();
       break;
     }
-    path.steps.push_back(system.unpack(ida.time(), begin, ida.y()));
+    path.steps.push_back(heart.unpack(ida.time() - begin, ida.y()));
     instants.follow(ida, from);
     for (double t = begin + interval * static_cast<double>(path.outputs.size());
          t <= ida.time() + 1e-9 && t <= end + 1e-9;
          t = begin + interval * static_cast<double>(path.outputs.size())) {
       Vector at;
       ida.interpolate(std::min(t, ida.time()), at);
-      path.outputs.push_back(system.unpack(t, begin, at));
+      path.outputs.push_back(heart.unpack(t - begin, at));
     }
-    path.min_det_F = std::min(path.min_det_F, system.min_det());
-    path.max_det_F = std::max(path.max_det_F, system.max_det());
+    path.min_det_F = std::min(path.min_det_F, ida.min_det());
+    path.max_det_F = std::max(path.max_det_F, ida.max_det());
     if (control.progress)
       control.progress("beat " + std::to_string(beat + 1), ida.time() / (period * protocol.time.max_beats));
     if (std::ssize(path.steps) > most)
@@ -204,10 +217,11 @@ bool run_beat(BeatSystem& system, const Protocol& protocol, const ContractionFie
   path.simulated_ms = ida.time();
   path.time_steps += static_cast<int>(counters.steps);
   path.newton_iterations += static_cast<int>(counters.newton_iterations);
-  system.cost().error_test_failures += counters.error_test_failures;
-  system.cost().convergence_failures += counters.convergence_failures;
+  path.cost.error_test_failures += counters.error_test_failures;
+  path.cost.convergence_failures += counters.convergence_failures;
+  add_cost(ida.cost(), path.cost);
   if (stop.empty()) {
-    cycle.end = system.states(y);
+    cycle.end = heart.states(y);
     cycle.stroke_mm3 = stroke_volume(path.steps);
     path.stroke_volumes_mm3.push_back(cycle.stroke_mm3);
     path.cycle.push_back(std::move(cycle));
@@ -220,29 +234,29 @@ bool run_beat(BeatSystem& system, const Protocol& protocol, const ContractionFie
 
 // The wall filled, and (y, rate) when the first beat begins. False, with the reason, when it stopped.
 bool begin_beats(const Ventricle& ventricle, const Protocol& protocol, const RunControl& control,
-                 BeatSystem& system, Vector& y, Vector& rate, HeartPath& path) {
+                 const CoupledHeart& heart, Vector& y, Vector& rate, HeartPath& path) {
   const protocol::Circulation& circulation = *protocol.circulation;
   Vector c = Vector::Zero(ventricle.num_coefficients());
   const auto begin = std::chrono::steady_clock::now();
   const bool filled = fill(ventricle, circulation, ventricle.contraction->tension(0), control, path, c);
-  system.cost().filling_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  path.cost.filling_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (!filled) return false;
-  HeartState start = filled_state(ventricle, circulation, c);
-  rate = system.start_consistently(start);
-  y = system.pack(start);
+  y = heart.pack(filled_state(ventricle, circulation, c));
+  rate = Vector::Zero(y.size());
+  add_cost(make_consistent(heart, 0, y, rate), path.cost);
   return true;
 }
 
 // Where an earlier run came to.
-void take_up(const Checkpoint& from, BeatSystem& system, Vector& y, Vector& rate, HeartPath& path) {
-  if (from.y.size() != system.size())
+void take_up(const Checkpoint& from, const CoupledHeart& heart, Vector& y, Vector& rate, HeartPath& path) {
+  if (from.y.size() != heart.system.size())
     throw polyaffine::InputError("the checkpoint holds " + std::to_string(from.y.size()) +
-                                 " unknowns, expected " + std::to_string(system.size()));
+                                 " unknowns, expected " + std::to_string(heart.system.size()));
   for (const CycleBeat& beat : from.cycle)
-    if (beat.start.size() != system.circulation().num_states())
+    if (beat.start.size() != heart.circulation->num_states())
       throw polyaffine::InputError("the checkpoint's beats hold " + std::to_string(beat.start.size()) +
                                    " states of the circulation, expected " +
-                                   std::to_string(system.circulation().num_states()));
+                                   std::to_string(heart.circulation->num_states()));
   y = from.y;
   rate = from.rate;
   path.beats = from.beats;
@@ -252,10 +266,10 @@ void take_up(const Checkpoint& from, BeatSystem& system, Vector& y, Vector& rate
   path.cycle = from.cycle;
   path.min_det_F = from.min_det_F;
   path.max_det_F = from.max_det_F;
-  system.cost() = from.cost;
+  path.cost = from.cost;
 }
 
-Checkpoint checkpoint(const HeartPath& path, const BeatSystem& system, const Vector& y, const Vector& rate) {
+Checkpoint checkpoint(const HeartPath& path, const Vector& y, const Vector& rate) {
   return {path.beats,
           path.time_steps,
           path.newton_iterations,
@@ -263,7 +277,7 @@ Checkpoint checkpoint(const HeartPath& path, const BeatSystem& system, const Vec
           path.cycle,
           path.min_det_F,
           path.max_det_F,
-          system.cost(),
+          path.cost,
           y,
           rate};
 }
@@ -271,26 +285,26 @@ Checkpoint checkpoint(const HeartPath& path, const BeatSystem& system, const Vec
 }  // namespace
 
 HeartPath run_beats(const Ventricle& ventricle, const Protocol& protocol, const RunControl& control) {
-  BeatSystem system(ventricle, circulation_model(ventricle.right_cavity != nullptr, *protocol.circulation));
-  const int cavities = system.num_cavities();
+  const CoupledHeart heart = couple(
+      ventricle, circulation_model(ventricle.cavities.size() > 1, *protocol.circulation), protocol.time);
+  const int cavities = heart.num_cavities();
   HeartPath path;
   ++path.built["circulation"];
   Vector y, rate;
   bool going_on = true, is_closed = false;
   if (control.resume)
-    take_up(*control.resume, system, y, rate, path);
+    take_up(*control.resume, heart, y, rate, path);
   else
-    going_on = begin_beats(ventricle, protocol, control, system, y, rate, path);
+    going_on = begin_beats(ventricle, protocol, control, heart, y, rate, path);
   while (going_on && !path.completed) {
-    if (control.on_checkpoint) control.on_checkpoint(checkpoint(path, system, y, rate));
-    going_on = run_beat(system, protocol, *ventricle.contraction, control, y, rate, path);
+    if (control.on_checkpoint) control.on_checkpoint(checkpoint(path, y, rate));
+    going_on = run_beat(heart, protocol, *ventricle.contraction, control, y, rate, path);
     if (!going_on) break;
     ++path.beats;
     is_closed = closed(path, cavities, protocol);
     path.completed = is_closed || path.beats == protocol.time.max_beats || is_noise(path.cycle, cavities);
-    if (!path.completed) extrapolate(system, path.simulated_ms, path, y, rate);
+    if (!path.completed) extrapolate(heart, path.simulated_ms, path, y, rate);
   }
-  path.cost = system.cost();
   if (path.completed && !is_closed) path.warnings.push_back(unclosed_warning(path, cavities, protocol));
   return path;
 }

@@ -18,9 +18,9 @@ constexpr int kBisections = 12;  // of such a part: 1e-3 ms of the longest step
 enum Row { inlet_drop, outlet_drop, filling_flow, rows };
 
 // Of each cavity: the pressure drops over its valves (kPa) and the rate of its volume (mm³/ms).
-Matrix signs(const BeatSystem& system, const Vector& y) {
-  const CirculationModel& circulation = system.circulation();
-  const Vector z = system.states(y), p = system.pressures(y);
+Matrix signs(const CoupledHeart& heart, const Vector& y) {
+  const CirculationModel& circulation = *heart.circulation;
+  const Vector z = heart.states(y), p = heart.pressures.of(y);
   Matrix out(static_cast<Eigen::Index>(rows), p.size());
   for (int k = 0; k < p.size(); ++k) {
     const CirculationModel::Side side = circulation.side(k, z, p);
@@ -31,9 +31,7 @@ Matrix signs(const BeatSystem& system, const Vector& y) {
 }
 
 void keep(std::optional<HeartState>& best, HeartState&& state, int cavity, bool largest) {
-  const auto volume = [cavity](const HeartState& s) {
-    return cavity == 0 ? s.volume_mm3 : s.right_volume_mm3;
-  };
+  const auto volume = [cavity](const HeartState& s) { return s.volumes_mm3[cavity]; };
   if (!best || (volume(state) > volume(*best)) == largest) best = std::move(state);
 }
 
@@ -49,18 +47,18 @@ double contraction_onset_ms(const ContractionField& contraction) {
   return onset < 0 ? 0 : onset - period * std::floor(onset / period);
 }
 
-BeatInstants::BeatInstants(const BeatSystem& system, double begin_ms, double onset_ms, const Vector& y,
+BeatInstants::BeatInstants(const CoupledHeart& heart, double begin_ms, double onset_ms, const Vector& y,
                            HeartPath& path)
-    : system_(system), begin_ms_(begin_ms), onset_ms_(onset_ms), path_(path), before_(signs(system, y)) {
+    : heart_(heart), begin_ms_(begin_ms), onset_ms_(onset_ms), path_(path), before_(signs(heart, y)) {
   path_.instants.assign(static_cast<std::size_t>(before_.cols()), {});
   path_.contraction_begins.reset();
   path_.circulation.clear();
-  if (onset_ms_ <= 0) path_.contraction_begins = system_.unpack(begin_ms, begin_ms, y);
+  if (onset_ms_ <= 0) path_.contraction_begins = heart_.unpack(0, y);
   sample(begin_ms, y);
 }
 
 void BeatInstants::sample(double t, const Vector& y) {
-  path_.circulation.push_back({t - begin_ms_, system_.states(y), system_.pressures(y)});
+  path_.circulation.push_back({t - begin_ms_, heart_.states(y), heart_.pressures.of(y)});
 }
 
 void BeatInstants::follow(const polyaffine::DaeIntegrator& ida, double from_ms) {
@@ -68,7 +66,7 @@ void BeatInstants::follow(const polyaffine::DaeIntegrator& ida, double from_ms) 
   const double part = (ida.time() - from_ms) / kParts;
   const auto state_at = [&](double t) {
     ida.interpolate(t, y);
-    return system_.unpack(t, begin_ms_, y);
+    return heart_.unpack(t - begin_ms_, y);
   };
   const double onset = begin_ms_ + onset_ms_;
   if (!path_.contraction_begins && onset <= ida.time())
@@ -77,7 +75,7 @@ void BeatInstants::follow(const polyaffine::DaeIntegrator& ida, double from_ms) 
     const double low = from_ms + (i - 1) * part, high = i == kParts ? ida.time() : from_ms + i * part;
     ida.interpolate(high, y);
     sample(high, y);
-    const Matrix now = signs(system_, y);
+    const Matrix now = signs(heart_, y);
     for (int k = 0; k < now.cols(); ++k)
       for (int row = 0; row < rows; ++row) {
         const bool falls = before_(row, k) > 0 && now(row, k) <= 0;
@@ -87,7 +85,7 @@ void BeatInstants::follow(const polyaffine::DaeIntegrator& ida, double from_ms) 
         for (int n = 0; n < kBisections; ++n) {
           const double middle = (a + b) / 2;
           ida.interpolate(middle, y);
-          ((signs(system_, y)(row, k) > 0) == falls ? a : b) = middle;
+          ((signs(heart_, y)(row, k) > 0) == falls ? a : b) = middle;
         }
         CavityInstants& instants = path_.instants[static_cast<std::size_t>(k)];
         if (row == inlet_drop) keep(instants.inlet_closes, state_at(b), k, true);

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <cardiac/model/beat_system.hpp>
+#include <cardiac/model/coupled_heart.hpp>
+#include <cardiac/run/beat.hpp>
 
 namespace cardiac {
 
@@ -10,7 +11,7 @@ namespace cardiac {
 class BeatInstants {
  public:
   /// Of the beat that begins at begin_ms with y; contraction begins at `onset_ms` of the beat.
-  BeatInstants(const BeatSystem& system, double begin_ms, double onset_ms, const polyaffine::Vector& y,
+  BeatInstants(const CoupledHeart& heart, double begin_ms, double onset_ms, const polyaffine::Vector& y,
                HeartPath& path);
   /// To be called after each step of the integrator, the beginning of which was `from_ms`.
   void follow(const polyaffine::DaeIntegrator& ida, double from_ms);
@@ -18,7 +19,7 @@ class BeatInstants {
  private:
   void sample(double t, const polyaffine::Vector& y);
 
-  const BeatSystem& system_;
+  const CoupledHeart& heart_;
   double begin_ms_, onset_ms_;
   HeartPath& path_;
   polyaffine::Matrix before_;  // what changes its sign, of each cavity, at the last sample

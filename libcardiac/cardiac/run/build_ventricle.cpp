@@ -15,7 +15,7 @@ Ventricle build_ventricle(std::shared_ptr<const Anatomy> anatomy, const Protocol
   if (method == protocol::Method::polyaffine) check_rest(all, protocol);
   if (method == protocol::Method::fem || protocol.reduction.integration != protocol::Integration::trained)
     return all;
-  if (all.right_cavity)
+  if (all.cavities.size() > 1)
     throw polyaffine::InputError(
         "reduction.integration: found trained on a mesh with two ventricles, expected cells or gauss");
   const TrainedRule rule = cached_rule(anatomy, protocol);

@@ -16,7 +16,7 @@ struct Checkpoint {
   std::vector<CycleBeat> cycle;  ///< what the limit is estimated from
   double min_det_F = 1, max_det_F = 1;
   SolveCost cost;
-  polyaffine::Vector y, rate;  ///< of BeatSystem
+  polyaffine::Vector y, rate;  ///< of CoupledHeart
 };
 
 /// What a checkpoint belongs to: it is of use only to a run of the same model.

@@ -61,8 +61,7 @@ std::optional<Haemodynamics> haemodynamics(const HeartPath& path, const Protocol
   h.venous_mean_mmHg = before / beat / kPa_per_mmHg;
   for (std::size_t k = 1; k < path.steps.size(); ++k) {
     const HeartState &a = path.steps[k - 1], &b = path.steps[k];
-    const double rise =
-        cavity == 0 ? b.pressure_kPa - a.pressure_kPa : b.right_pressure_kPa - a.right_pressure_kPa;
+    const double rise = b.pressures_kPa[cavity] - a.pressures_kPa[cavity];
     const double rate = rise / kPa_per_mmHg / (b.time_ms - a.time_ms) * ms_per_s;
     h.dp_dt_max_mmHg_per_s = std::max(h.dp_dt_max_mmHg_per_s, rate);
     h.dp_dt_min_mmHg_per_s = std::min(h.dp_dt_min_mmHg_per_s, rate);

@@ -12,11 +12,11 @@ using polyaffine::Vector;
 namespace {
 
 double volume(const HeartState& s, int cavity) {
-  return cavity == 0 ? s.volume_mm3 : s.right_volume_mm3;
+  return s.volumes_mm3[cavity];
 }
 
 double pressure(const HeartState& s, int cavity) {
-  return cavity == 0 ? s.pressure_kPa : s.right_pressure_kPa;
+  return s.pressures_kPa[cavity];
 }
 
 // What lies about a cavity at each step of a path.
@@ -26,12 +26,12 @@ struct Surroundings {
 };
 
 Surroundings surroundings(const HeartPath& path, const Protocol& protocol, int cavity) {
-  const auto model = circulation_model(path.steps.front().loop.size() > 0, *protocol.circulation);
+  const auto model = circulation_model(path.steps.front().volumes_mm3.size() > 1, *protocol.circulation);
   const auto n = static_cast<Eigen::Index>(path.steps.size());
   Surroundings out{Vector(n), Vector(n), Vector(n), {}};
   for (Eigen::Index k = 0; k < n; ++k) {
     const HeartState& s = path.steps[static_cast<std::size_t>(k)];
-    const CirculationModel::Side side = model->side(cavity, circulation_states(s), cavity_pressures(s));
+    const CirculationModel::Side side = model->side(cavity, s.circulation(), s.pressures_kPa);
     out.before[k] = side.before_kPa;
     out.pressure[k] = pressure(s, cavity);
     out.capacitor[k] = side.capacitor_kPa;

@@ -26,7 +26,7 @@ Motion::Motion(const Ventricle& ventricle, const std::vector<ControlNode>& nodes
       fit_(anatomy_.mesh, anatomy_.segment, nodes, vertices_ed_) {
   for (const SegmentInfo& segment : segments) volumes_.push_back(segment.volume_mL);
   contours_.push_back(contours(ContourGauge::Side::left));
-  if (ventricle.right_cavity) contours_.push_back(contours(ContourGauge::Side::right));
+  if (ventricle.cavities.size() > 1) contours_.push_back(contours(ContourGauge::Side::right));
 }
 
 Instant Motion::instant(double time_ms, const Vector& c) const {

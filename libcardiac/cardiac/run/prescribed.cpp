@@ -1,10 +1,8 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 #include <cardiac/core/units.hpp>
-#include <cardiac/model/pressed_wall.hpp>
 #include <cardiac/run/beat_instants.hpp>
 #include <cardiac/run/statics.hpp>
 
@@ -14,14 +12,23 @@ using polyaffine::Vector;
 
 namespace {
 
-HeartState state_of(const Ventricle& ventricle, double t, const Vector& c,
-                    const std::array<double, 2>& pressures_kPa) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();  // a wall without a cavity has no volume
-  HeartState state{t, c, ventricle.cavity ? ventricle.cavity_volume(c) : kNone, pressures_kPa[0], 0};
-  if (!ventricle.right_cavity) return state;
-  state.right_volume_mm3 = ventricle.right_cavity->evaluate({c}).value;
-  state.right_pressure_kPa = pressures_kPa[1];
-  return state;
+// The pressures that a protocol holds in the cavities, kPa.
+Vector prescribed_pressures(const Ventricle& ventricle, const Protocol& protocol) {
+  if (!protocol.cavities) return Vector::Zero(std::max<std::ptrdiff_t>(1, std::ssize(ventricle.cavities)));
+  const Vector both{{protocol.cavities->pressure_mmHg, protocol.cavities->right_pressure_mmHg}};
+  return kPa_per_mmHg * both.head(std::ssize(ventricle.cavities));
+}
+
+// A wall without a cavity is told as one whose volume is no number.
+HeartState state_of(const Ventricle& ventricle, double t, const Vector& c, const Vector& pressures_kPa) {
+  if (ventricle.cavities.empty())
+    return {t, c, Vector::Constant(1, std::numeric_limits<double>::quiet_NaN()), pressures_kPa};
+  return {t, c, ventricle.cavity_volumes(c), pressures_kPa};
+}
+
+void widen(double min_det, double max_det, HeartPath& path) {
+  path.min_det_F = std::min(path.min_det_F, min_det);
+  path.max_det_F = std::max(path.max_det_F, max_det);
 }
 
 // Begin of the last contraction that ends within the duration; of the first where none does.
@@ -32,104 +39,127 @@ double last_onset(const ContractionField& contraction, double duration_ms) {
   return first + period * std::max(0.0, std::floor((duration_ms - lasts - first) / period));
 }
 
-// The contraction of a wall under the pressures it was loaded with, from its equilibrium c at time 0 on.
-// False, with the reason, when it stopped.
-bool contract(const Ventricle& ventricle, const Protocol& protocol, const RunControl& control,
-              const std::array<double, 2>& pressures_kPa, const Vector& c, HeartPath& path) {
-  const double duration = protocol.time.duration_ms, interval = protocol.output.interval_ms;
-  const double onset = last_onset(*ventricle.contraction, duration);
-  const TensionCurve& curve = ventricle.contraction->curve;
-  const double relaxation = onset + curve.contraction_end_ms() - curve.contraction_begin_ms();
-  const int most = most_steps(protocol.time, duration);
-  PressedWall system(ventricle, pressures_kPa);
-  const auto state = [&](double t, const Vector& y) { return state_of(ventricle, t, y, pressures_kPa); };
-  path.steps = path.outputs;
-  if (onset <= 0) path.contraction_begins = path.steps.front();
-  polyaffine::DaeIntegrator ida(system, system.options(protocol.time), 0, c, Vector::Zero(c.size()));
-  Vector at;
-  const auto interpolated = [&](double t) {
-    ida.interpolate(std::min(t, ida.time()), at);
-    return state(t, at);
+// The wall from rest to the pressures, at the tension of time 0, told at every equilibrium on the way; the
+// time of the loading is `lasts_ms`. False, with the reason, when it stopped.
+bool load_wall(const Ventricle& ventricle, const Protocol& protocol, const RunControl& control,
+               const Vector& pressures_kPa, double lasts_ms, Vector& c, HeartPath& path) {
+  const Vector tension = ventricle.contraction ? ventricle.contraction->tension(0) : Vector();
+  const polyaffine::System system = loaded_ventricle(ventricle, {pressures_kPa, tension});
+  const auto tell = [&](double load, const Vector& at) {
+    path.outputs.push_back(state_of(ventricle, load * lasts_ms, at, load * pressures_kPa));
+    const auto residual = system.residual({load, at});
+    widen(residual.min_det, residual.max_det, path);
+    if (control.progress) control.progress("loading", load);
   };
-  std::string stop;
-  while (stop.empty() && ida.time() < duration * (1 - 1e-12)) {
-    if (ida.step(duration) == polyaffine::DaeStatus::failed) {
-      stop = ida.failure();
-      break;
-    }
-    path.steps.push_back(state(ida.time(), ida.y()));
-    for (double t = interval * static_cast<double>(path.outputs.size()); t <= ida.time() + 1e-9;
-         t = interval * static_cast<double>(path.outputs.size()))
-      path.outputs.push_back(interpolated(t));
-    if (!path.contraction_begins && onset <= ida.time()) path.contraction_begins = interpolated(onset);
-    if (!path.contraction_ends && relaxation <= ida.time()) path.contraction_ends = interpolated(relaxation);
-    path.min_det_F = std::min(path.min_det_F, system.min_det());
-    path.max_det_F = std::max(path.max_det_F, system.max_det());
-    if (control.progress) control.progress("contraction", ida.time() / duration);
-    if (std::ssize(path.steps) > most)
-      stop = too_many_steps(most, path.steps.back().time_ms - path.steps.end()[-2].time_ms);
-    else if (stop_wanted(control))
-      stop = control.stop_reason();
-  }
-  if (path.outputs.back().time_ms < path.steps.back().time_ms - 1e-9)
-    path.outputs.push_back(path.steps.back());
-  const auto counters = ida.counters();
-  path.time_steps += static_cast<int>(counters.steps);
-  path.newton_iterations += static_cast<int>(counters.newton_iterations);
-  if (stop.empty()) return true;
-  path.stop_reason = "stopped at " + std::to_string(ida.time()) + " ms: " + stop;
-  return false;
+  tell(0, c);
+  polyaffine::LoadOptions options;
+  options.first_step = options.largest_step = 1.0 / protocol.time.load_steps;
+  options.on_step = tell;
+  options.interrupted = [&] { return stop_wanted(control); };
+  const auto report = polyaffine::load_stepping(system, *system.make_linear(), c, options);
+  path.time_steps += report.steps;
+  path.newton_iterations += report.iterations;
+  path.cuts += report.cuts;
+  warn_of_instability(report, "load", path);
+  if (!report.converged())
+    path.stop_reason = "stopped at " + std::to_string(100 * report.reached) +
+                       " % of the load: " + why_it_stopped(report, control);
+  return report.converged();
 }
+
+// The contraction of a wall under constant pressures, from its equilibrium c at time 0 on.
+class Contraction {
+ public:
+  Contraction(const Ventricle& ventricle, const Protocol& protocol, const Vector& pressures_kPa,
+              const Vector& c, HeartPath& path)
+      : ventricle_(ventricle),
+        protocol_(protocol),
+        pressures_kPa_(pressures_kPa),
+        path_(path),
+        system_(pressed_system(ventricle, ventricle.tension(), constant(pressures_kPa),
+                               protocol.time.absolute_tolerance_mm)),
+        ida_(system_, dae_options(protocol.time), 0, c, Vector::Zero(c.size())),
+        onset_ms_(last_onset(*ventricle.contraction, protocol.time.duration_ms)) {
+    const TensionCurve& curve = ventricle.contraction->curve;
+    relaxation_ms_ = onset_ms_ + curve.contraction_end_ms() - curve.contraction_begin_ms();
+  }
+
+  // False, with the reason, when it stopped.
+  bool run(const RunControl& control) {
+    const double duration = protocol_.time.duration_ms;
+    const int most = most_steps(protocol_.time, duration);
+    path_.outputs = {path_.outputs.back()};  // the end of the loading, which took no time
+    path_.steps = path_.outputs;
+    if (onset_ms_ <= 0) path_.contraction_begins = path_.steps.front();
+    std::string stop;
+    while (stop.empty() && ida_.time() < duration * (1 - 1e-12)) {
+      if (ida_.step(duration) == polyaffine::DaeStatus::failed) {
+        stop = ida_.failure();
+        break;
+      }
+      tell_step();
+      if (control.progress) control.progress("contraction", ida_.time() / duration);
+      if (std::ssize(path_.steps) > most)
+        stop = too_many_steps(most, path_.steps.back().time_ms - path_.steps.end()[-2].time_ms);
+      else if (stop_wanted(control))
+        stop = control.stop_reason();
+    }
+    if (path_.outputs.back().time_ms < path_.steps.back().time_ms - 1e-9)
+      path_.outputs.push_back(path_.steps.back());
+    const auto counters = ida_.counters();
+    path_.time_steps += static_cast<int>(counters.steps);
+    path_.newton_iterations += static_cast<int>(counters.newton_iterations);
+    if (!stop.empty()) path_.stop_reason = "stopped at " + std::to_string(ida_.time()) + " ms: " + stop;
+    return stop.empty();
+  }
+
+ private:
+  static std::vector<polyaffine::FieldTerm::Scale> constant(const Vector& pressures_kPa) {
+    std::vector<polyaffine::FieldTerm::Scale> out;
+    for (const double p : pressures_kPa) out.emplace_back([p](double) { return p; });
+    return out;
+  }
+
+  HeartState at(double t) const {
+    Vector c;
+    ida_.interpolate(std::min(t, ida_.time()), c);
+    return state_of(ventricle_, t, c, pressures_kPa_);
+  }
+
+  // The step taken last, and what lies within it.
+  void tell_step() {
+    path_.steps.push_back(state_of(ventricle_, ida_.time(), ida_.y(), pressures_kPa_));
+    const double interval = protocol_.output.interval_ms;
+    for (double t = interval * static_cast<double>(path_.outputs.size()); t <= ida_.time() + 1e-9;
+         t = interval * static_cast<double>(path_.outputs.size()))
+      path_.outputs.push_back(at(t));
+    if (!path_.contraction_begins && onset_ms_ <= ida_.time()) path_.contraction_begins = at(onset_ms_);
+    if (!path_.contraction_ends && relaxation_ms_ <= ida_.time()) path_.contraction_ends = at(relaxation_ms_);
+    widen(ida_.min_det(), ida_.max_det(), path_);
+  }
+
+  const Ventricle& ventricle_;
+  const Protocol& protocol_;
+  Vector pressures_kPa_;
+  HeartPath& path_;
+  polyaffine::System system_;
+  polyaffine::DaeIntegrator ida_;
+  double onset_ms_, relaxation_ms_ = 0;
+};
 
 }  // namespace
 
 HeartPath run_prescribed(const Ventricle& ventricle, const Protocol& protocol, const RunControl& control) {
   HeartPath path;
   Vector c = Vector::Zero(ventricle.num_coefficients());
-  const double duration = protocol.time.duration_ms;
-  const double target = protocol.cavities ? protocol.cavities->pressure_mmHg * kPa_per_mmHg : 0.0;
-  const double right_target = protocol.cavities && ventricle.right_cavity
-                                  ? protocol.cavities->right_pressure_mmHg * kPa_per_mmHg
-                                  : 0.0;
-  const auto system = ventricle.make_system();
-  const auto follow = [&](const polyaffine::EquilibriumProblem& problem,
-                          const std::function<double(double)>& time) {
-    polyaffine::LoadOptions options;
-    options.first_step = options.largest_step = 1.0 / protocol.time.load_steps;
-    const auto record = [&](double load, const Vector& at) {
-      path.outputs.push_back(state_of(ventricle, time(load), at, {load * target, load * right_target}));
-      const auto wall = ventricle.wall->evaluate({at, problem.terms.front().state(load)});
-      path.min_det_F = std::min(path.min_det_F, wall.min_det);
-      path.max_det_F = std::max(path.max_det_F, wall.max_det);
-      if (control.progress) control.progress("loading", load);
-    };
-    if (path.outputs.empty()) record(0, c);
-    options.on_step = record;
-    options.interrupted = [&] { return stop_wanted(control); };
-    const auto report = polyaffine::load_stepping(problem, *system, c, options);
-    path.time_steps += report.steps;
-    path.newton_iterations += report.iterations;
-    path.cuts += report.cuts;
-    warn_of_instability(report, "load", path);
-    if (!report.converged())
-      path.stop_reason = "stopped at " + std::to_string(100 * report.reached) +
-                         " % of the load: " + why_it_stopped(report, control);
-    return report.converged();
-  };
-
+  const Vector pressures_kPa = prescribed_pressures(ventricle, protocol);
   const bool contracts = ventricle.contraction != nullptr;
-  const Vector none;
-  const Vector at_rest = contracts ? ventricle.contraction->tension(0) : none;
-  const WallLoad unloaded{0, Vector::Zero(at_rest.size())};
-  const WallLoad loaded{target, at_rest, right_target};
-  path.completed = follow(loaded_ventricle(ventricle, unloaded, loaded),
-                          [&](double load) { return contracts ? 0.0 : load * duration; });
-  if (path.completed && contracts) {
-    path.outputs.erase(path.outputs.begin(), path.outputs.end() - 1);
-    path.completed = contract(ventricle, protocol, control, {target, right_target}, c, path);
-  } else {
+  const double loading_ms = contracts ? 0 : protocol.time.duration_ms;
+  path.completed = load_wall(ventricle, protocol, control, pressures_kPa, loading_ms, c, path);
+  if (path.completed && contracts)
+    path.completed = Contraction(ventricle, protocol, pressures_kPa, c, path).run(control);
+  else
     path.steps = path.outputs;
-  }
   path.simulated_ms = path.steps.back().time_ms;
   return path;
 }

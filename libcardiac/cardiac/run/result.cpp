@@ -19,15 +19,12 @@ namespace {
 constexpr double kCrushed = 0.5;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-VentricleSummary summarise(const HeartPath& path, const KeyStates& key, bool right, bool has_beat) {
-  const auto volume_mL = [right](const HeartState& s) {
-    return (right ? s.right_volume_mm3 : s.volume_mm3) / mm3_per_mL;
-  };
-  const auto pressure_mmHg = [right](const HeartState& s) {
-    return (right ? s.right_pressure_kPa : s.pressure_kPa) / kPa_per_mmHg;
-  };
+VentricleSummary summarise(const HeartPath& path, const KeyStates& key, int cavity, const std::string& name,
+                           bool has_beat) {
+  const auto volume_mL = [cavity](const HeartState& s) { return s.volumes_mm3[cavity] / mm3_per_mL; };
+  const auto pressure_mmHg = [cavity](const HeartState& s) { return s.pressures_kPa[cavity] / kPa_per_mmHg; };
   VentricleSummary out;
-  out.name = right ? "rv" : "lv";
+  out.name = name;
   out.peak_pressure_mmHg = -std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < path.steps.size(); ++k) {
     const HeartState& s = path.steps[k];
@@ -140,9 +137,11 @@ BeatResult describe_path(const Ventricle& ventricle, const std::vector<ControlNo
   }
 
   const KeyStates key = key_states(path, protocol);
-  out.ventricles.push_back(summarise(path, key, false, out.has_beat));
-  if (ventricle.right_cavity)
-    out.ventricles.push_back(summarise(path, key_states(path, protocol, 1), true, out.has_beat));
+  // A wall without a cavity is told as a left ventricle without a volume.
+  out.ventricles.push_back(summarise(path, key, 0, "lv", out.has_beat));
+  for (int k = 1; k < static_cast<int>(ventricle.cavities.size()); ++k)
+    out.ventricles.push_back(summarise(path, key_states(path, protocol, k), k,
+                                       ventricle.cavities[static_cast<std::size_t>(k)].name, out.has_beat));
   for (int k = 0; k < static_cast<int>(out.ventricles.size()); ++k)
     for (std::string& warning : valve_warnings(path, protocol, k)) out.warnings.push_back(std::move(warning));
   if (out.has_beat) {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include <cardiac/run/beat.hpp>
-#include <polyaffine/solve/equilibrium.hpp>
+#include <polyaffine/solve/load_stepping.hpp>
 
 /// What the static loadings of run_beats and run_prescribed share: how they are stopped and told.
 namespace cardiac {
@@ -15,6 +15,9 @@ std::string why_it_stopped(const polyaffine::LoadReport& report, const RunContro
 
 /// Warns in the path when the equilibrium of a load is not stable.
 void warn_of_instability(const polyaffine::LoadReport& report, const std::string& load, HeartPath& path);
+
+/// The integration that a protocol asks for.
+polyaffine::DaeOptions dae_options(const protocol::Time& time);
 
 /// Time steps of `span_ms`, some ten times as many as one needs.
 int most_steps(const protocol::Time& time, double span_ms);

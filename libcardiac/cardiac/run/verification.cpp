@@ -11,6 +11,7 @@
 #include <cardiac/strain/segment_strain.hpp>
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/kinematics/lagrange.hpp>
+#include <polyaffine/solve/load_stepping.hpp>
 
 namespace cardiac {
 
@@ -58,21 +59,21 @@ Comparison compare(const Ventricle& reduced, const Ventricle& full, const HeartS
   const auto& elements = dynamic_cast<const polyaffine::LagrangeBasis&>(*full.discretisation.basis);
   const auto& points = full.discretisation.points;
   const Vector tension = full.contraction ? full.contraction->tension(clock_ms) : Vector();
-  const auto problem = loaded_ventricle(full, {state.pressure_kPa, tension, state.right_pressure_kPa});
-  const auto system = full.make_system();
+  const polyaffine::System problem = loaded_ventricle(full, {state.pressures_kPa, tension});
+  const auto linear = problem.make_linear();
   Vector c = nodal_displacement(elements, *reduced.discretisation.basis, state.c);
   polyaffine::NewtonOptions options;
   options.tolerance = 1e-7;
   options.max_iterations = 60;
   options.on_iteration = newton_progress(progress, options.tolerance);
-  auto report = polyaffine::newton(problem, 1, *system, c, options);
+  auto report = polyaffine::newton(problem, 1, *linear, c, options);
   if (!report.converged()) {
     c.setZero();
     double reached = 0;
     polyaffine::LoadOptions steps;
     steps.on_step = [&](double load, const Vector&) { reached = load; };
     steps.newton.on_iteration = [&](int, double) { progress("load raised from zero", reached); };
-    const auto ramp = polyaffine::load_stepping(problem, *system, c, steps);
+    const auto ramp = polyaffine::load_stepping(problem, *linear, c, steps);
     if (!ramp.converged())
       throw polyaffine::ComputationError("verification: the full-order problem stopped at " +
                                          std::to_string(100 * ramp.reached) +
@@ -93,10 +94,8 @@ Comparison compare(const Ventricle& reduced, const Ventricle& full, const HeartS
   const double volume = points.weights.sum();
   out.displacement_error =
       size > kNone * kNone * std::pow(volume, 5.0 / 3) ? std::sqrt(points.weights.dot(error) / size) : 0;
-  const auto cavities = full.cavities();
-  for (std::size_t k = 0; k < cavities.size(); ++k) {
-    const double off =
-        reduced.cavities()[k]->evaluate({state.c}).value / cavities[k]->evaluate({c}).value - 1;
+  for (std::size_t k = 0; k < full.cavities.size(); ++k) {
+    const double off = reduced.cavity_volume(state.c, k) / full.cavity_volume(c, k) - 1;
     if (std::abs(off) > std::abs(out.volume_error)) out.volume_error = off;
   }
   out.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

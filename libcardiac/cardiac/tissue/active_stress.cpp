@@ -15,8 +15,9 @@ ActiveStress::ActiveStress(const FibreAxes& axes, double cross_fibre_fraction)
           cross_fibre_fraction, "a dimensionless number from 0 to 1");
 }
 
-void ActiveStress::respond(PackPoints points, const Mat3Pack& f, PointState tension_kPa, bool tangent,
-                           PackResponse& r) const {
+void ActiveStress::respond(PackPoints points, const PackMotion& at, bool tangent, PackResponse& r) const {
+  const Mat3Pack& f = at.F;
+  const PointState tension_kPa = at.state;
   if (tension_kPa.size() < static_cast<std::size_t>(points.point) + static_cast<std::size_t>(points.lanes))
     throw ComputationError("active stress: the state holds fewer tensions than there are points");
   const Mat3Pack R = axes_.at(points);

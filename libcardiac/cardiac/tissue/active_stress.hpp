@@ -15,8 +15,8 @@ class ActiveStress : public polyaffine::Law {
   /// orthonormal.
   explicit ActiveStress(const FibreAxes& axes, double cross_fibre_fraction = 0);
   /// Throws ComputationError when `tension_kPa` has none for one of the points.
-  void respond(polyaffine::PackPoints points, const polyaffine::Mat3Pack& F,
-               polyaffine::PointState tension_kPa, bool tangent, polyaffine::PackResponse& r) const override;
+  void respond(polyaffine::PackPoints points, const polyaffine::PackMotion& at, bool tangent,
+               polyaffine::PackResponse& r) const override;
 
  private:
   FibrePacks axes_;

@@ -44,8 +44,8 @@ Guccione::Guccione(GuccioneParameters parameters, const FibreAxes& axes, std::ve
   factor_.require_size(axes_.size());
 }
 
-void Guccione::respond(PackPoints points, const Mat3Pack& f, PointState, bool tangent,
-                       PackResponse& r) const {
+void Guccione::respond(PackPoints points, const PackMotion& at, bool tangent, PackResponse& r) const {
+  const Mat3Pack& f = at.F;
   const Mat3Pack R = axes_.at(points);
   const Mat3Pack local = to_local_axes(f, R);
   const SymPack C = right_cauchy_green(local);

@@ -49,8 +49,8 @@ HolzapfelOgden::HolzapfelOgden(HolzapfelOgdenParameters parameters, const FibreA
   factor_.require_size(axes_.size());
 }
 
-void HolzapfelOgden::respond(PackPoints points, const Mat3Pack& f, PointState, bool tangent,
-                             PackResponse& r) const {
+void HolzapfelOgden::respond(PackPoints points, const PackMotion& at, bool tangent, PackResponse& r) const {
+  const Mat3Pack& f = at.F;
   const HolzapfelOgdenParameters& p = parameters_;
   const Mat3Pack R = axes_.at(points);
   const Mat3Pack local = to_local_axes(f, R);

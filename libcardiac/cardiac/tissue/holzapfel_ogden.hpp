@@ -29,8 +29,8 @@ class HolzapfelOgden : public polyaffine::Law {
   /// `factor` multiplies W (one per point, empty = 1). Throws InputError for impossible constants, axes that
   /// are not orthonormal or a number of factors other than that of the axes.
   HolzapfelOgden(HolzapfelOgdenParameters parameters, const FibreAxes& axes, std::vector<double> factor = {});
-  void respond(polyaffine::PackPoints points, const polyaffine::Mat3Pack& F, polyaffine::PointState state,
-               bool tangent, polyaffine::PackResponse& r) const override;
+  void respond(polyaffine::PackPoints points, const polyaffine::PackMotion& at, bool tangent,
+               polyaffine::PackResponse& r) const override;
 
  private:
   HolzapfelOgdenParameters parameters_;

@@ -104,8 +104,8 @@ void keep(const CompressedRule& rule, Places& places) {
 Discretisation with_rule(const Discretisation& all_points, const TrainedRule& rule) {
   Discretisation out = all_points;
   keep(rule.wall, out.points);
-  auto& surface = out.cavity_points;
-  if (surface.tet.empty()) return out;
+  if (out.cavities.empty()) return out;
+  auto& surface = out.cavities.front().points;
   keep(rule.cavity, surface);
   for (auto* columns : {&surface.X, &surface.X_xi, &surface.X_eta})
     *columns = polyaffine::Points((*columns)(Eigen::all, rule.cavity.points));

@@ -7,6 +7,7 @@
 
 #include <cardiac/core/units.hpp>
 #include <polyaffine/quadrature/cubature.hpp>
+#include <polyaffine/solve/load_stepping.hpp>
 
 namespace cardiac {
 
@@ -62,47 +63,37 @@ Matrix joined(const Matrix& A, const Vector& t) {
   return out;
 }
 
+// The integrals that a rule has to keep, and what a point contributes to each. With K the tangent in a state
+// and ‖r‖ = (rᵀK⁻¹r)^½, the energy norm, a sum of forces f = Σ f_q is kept to a share of ‖f‖.
 class Trainer {
  public:
-  Trainer(const Ventricle& ventricle)
+  explicit Trainer(const Ventricle& ventricle)
       : wall_(ventricle.wall->table().num_points()),
-        cavity_(ventricle.cavity ? ventricle.cavity->table().num_points() : 0) {
+        cavity_(ventricle.cavities.empty() ? 0 : cavity(ventricle).table().num_points()) {
     const Vector& w = ventricle.wall->table().weights;
-    const Matrix volume = w.transpose() / w.sum();
-    wall_.add(volume, Vector::Ones(1), joined(volume, Vector::Ones(1)));
+    keep_sum(w.transpose(), wall_);
   }
 
-  // What the points contribute in a state under a load.
+  // What the points contribute in a state under a load. A state that is not stable says nothing.
   void add(const Ventricle& v, const Vector& c, const Vector& rate, const WallLoad& load) {
-    const polyaffine::PointState state(load.tension.data(), static_cast<std::size_t>(load.tension.size()));
-    const auto system = v.make_system();
-    system->set_zero();
-    v.wall->add_tangent({c, state}, *system);
-    if (v.cavity) v.cavity->add_tangent({c}, *system, -load.pressure_kPa);
-    for (const auto& spring : v.springs) spring->add_tangent({c}, *system);
-    if (!system->factorise() || !system->positive_definite()) return;
-    const auto& fixed = v.discretisation.fixed;
+    const polyaffine::System system = loaded_ventricle(v, load);
+    const auto linear = system.make_linear();
+    polyaffine::Linearised tangent(system, *linear);
+    if (!tangent.factorise({1, c}, 0) || !tangent.positive_definite()) return;
+    const auto dual = [&](const Matrix& forces) {
+      return solve(*linear, joined(forces, forces.rowwise().sum()), v.discretisation.fixed);
+    };
 
+    const polyaffine::PointState state(load.tension.data(), static_cast<std::size_t>(load.tension.size()));
     const bool mixed = v.wall->pressure_space().has_value();
     const Vector pressure = mixed ? v.wall->pressure(c) : Vector();
     const auto terms = v.wall->point_terms({c, state, &rate, mixed ? &pressure : nullptr});
-    const Vector force = terms.gradient.rowwise().sum();
-    const Matrix dual = solve(*system, joined(terms.gradient, force), fixed);
-    const double energy = force.dot(dual.rightCols<1>());
-    wall_.add(terms.gradient, force, dual / energy);
-    if (mixed) {
-      const Vector lack = terms.pressure_gradient.rowwise().sum();
-      Matrix dual_pressure = joined(terms.pressure_gradient, lack);
-      for (auto column : dual_pressure.colwise()) column = v.wall->penalty_pressure(column);
-      wall_.add(terms.pressure_gradient, lack, dual_pressure / energy);
-    }
-    if (!v.cavity) return;
-    const auto surface = v.cavity->point_terms({c});
-    const Vector gradient = surface.gradient.rowwise().sum();
-    const Matrix dual_surface = solve(*system, joined(surface.gradient, gradient), fixed);
-    cavity_.add(surface.gradient, gradient, dual_surface / gradient.dot(dual_surface.rightCols<1>()));
-    const Matrix volume = surface.value.transpose() / surface.value.sum();
-    cavity_.add(volume, Vector::Ones(1), joined(volume, Vector::Ones(1)));
+    const double energy = keep_forces(terms.gradient, dual(terms.gradient), wall_);
+    if (mixed) keep_volumes(*v.wall, terms.pressure_gradient, energy);
+    if (v.cavities.empty()) return;
+    const auto surface = cavity(v).point_terms({c});
+    keep_forces(surface.gradient, dual(surface.gradient), cavity_);
+    keep_sum(surface.value.transpose(), cavity_);
   }
 
   TrainedRule rule() const {
@@ -112,6 +103,30 @@ class Trainer {
   }
 
  private:
+  static const polyaffine::FieldEnergy& cavity(const Ventricle& v) { return *v.cavities.front().volume; }
+
+  // One number, the sum of a row, relative to itself.
+  static void keep_sum(const Matrix& row, CubatureTraining& training) {
+    const Matrix share = row / row.sum();
+    training.add(share, Vector::Ones(1), joined(share, Vector::Ones(1)));
+  }
+
+  // The sum f of forces, a column a point, with K⁻¹ of them and of f. Returns ‖f‖².
+  static double keep_forces(const Matrix& forces, const Matrix& dual, CubatureTraining& training) {
+    const Vector f = forces.rowwise().sum();
+    const double energy = f.dot(dual.rightCols<1>());
+    training.add(forces, f, dual / energy);
+    return energy;
+  }
+
+  // The changes of volume g that the pressures see, in the energy of the forces: ‖g‖² = κ gᵀM⁻¹g.
+  void keep_volumes(const polyaffine::FieldEnergy& wall, const Matrix& changes, double energy) {
+    const Vector g = changes.rowwise().sum();
+    Matrix dual = joined(changes, g);
+    for (auto column : dual.colwise()) column = wall.penalty_pressure(column);
+    wall_.add(changes, g, dual / energy);
+  }
+
   CubatureTraining wall_, cavity_;
 };
 
@@ -131,7 +146,7 @@ WallLoad sample_load(Samples& samples, int j, const Anatomy& anatomy, Protocol p
       load.tension.array() *= Eigen::Map<const Eigen::ArrayXd>(factors.data(), std::ssize(factors));
   }
   if (protocol.cavities || protocol.circulation)
-    load.pressure_kPa = samples.uniform(0.1, 1) * highest * kPa_per_mmHg;
+    load.pressures_kPa = Vector::Constant(1, samples.uniform(0.1, 1) * highest * kPa_per_mmHg);
   return load;
 }
 
@@ -141,10 +156,11 @@ std::vector<State> loaded_states(const Ventricle& ventricle, const WallLoad& loa
   polyaffine::LoadOptions options;
   options.first_step = 0.25;
   options.path_slack = 100;
-  options.newton.tolerance = options.newton.dilatation_tolerance = 1e-5;
+  options.newton.tolerance = options.newton.defect_tolerance = 1e-5;
   options.on_step = [&](double reached, const Vector& at) { path.push_back({at, reached}); };
   Vector c = Vector::Zero(ventricle.num_coefficients());
-  polyaffine::load_stepping(loaded_ventricle(ventricle, load), *ventricle.make_system(), c, options);
+  const polyaffine::System system = loaded_ventricle(ventricle, load);
+  polyaffine::load_stepping(system, *system.make_linear(), c, options);
   if (path.size() > 2) path = {path[path.size() / 2 - 1], path.back()};
   return path;
 }
@@ -166,7 +182,7 @@ TrainedRule train_rule(const std::shared_ptr<const Anatomy>& anatomy, const Prot
       const std::vector<State> states = loaded_states(ventricle, load);
       for (const State& state : states)
         trainer->add(ventricle, state.c, (states.back().c - states.front().c) / kViscousTime_ms,
-                     {state.share * load.pressure_kPa, state.share * load.tension});
+                     {state.share * load.pressures_kPa, state.share * load.tension});
     }
   }
   return trainer->rule();
@@ -175,23 +191,17 @@ TrainedRule train_rule(const std::shared_ptr<const Anatomy>& anatomy, const Prot
 double rule_error(const Ventricle& ventricle, const HeartState& state, double clock_ms) {
   const Ventricle& all = *ventricle.all_points;
   const Vector& c = state.c;
-  const auto tension = [clock_ms](const Ventricle& v) {
-    return v.contraction ? v.contraction->tension(clock_ms) : Vector();
+  const auto system_of = [&](const Ventricle& v) {
+    return loaded_ventricle(
+        v, {state.pressures_kPa, v.contraction ? v.contraction->tension(clock_ms) : Vector()});
   };
-  const auto system = all.make_system();
-  system->set_zero();
-  Vector lack = Vector::Zero(c.size());
-  const auto add = [&](const Ventricle& v, double sign) {
-    const auto problem = loaded_ventricle(v, {state.pressure_kPa, tension(v)});
-    for (const auto& term : problem.terms) {
-      lack += sign * term.scale(1) * term.energy->evaluate({c, term.state(1)}).gradient;
-      if (sign > 0) term.energy->add_tangent({c, term.state(1)}, *system, term.scale(1));
-    }
-  };
-  add(all, 1);
-  add(ventricle, -1);
-  if (!system->factorise()) return std::numeric_limits<double>::infinity();
-  const Vector step = solve(*system, lack, all.discretisation.fixed);
+  const polyaffine::System of_all = system_of(all), of_rule = system_of(ventricle);
+  const polyaffine::At at{1, c};
+  const auto linear = of_all.make_linear();
+  if (!polyaffine::Linearised(of_all, *linear).factorise(at, 0))
+    return std::numeric_limits<double>::infinity();
+  const Vector lack = of_all.residual(at).values - of_rule.residual(at).values;
+  const Vector step = solve(*linear, lack, all.discretisation.fixed);
   const auto& points = all.discretisation.points;
   const polyaffine::DisplacementMap displacement(*all.discretisation.basis, points.tet, points.barycentric);
   const auto square = [&](const Vector& x) {

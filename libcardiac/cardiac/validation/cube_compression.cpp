@@ -13,11 +13,13 @@
 #include <polyaffine/core/single_thread.hpp>
 #include <polyaffine/kinematics/gmls_basis.hpp>
 #include <polyaffine/kinematics/resultant_table.hpp>
+#include <polyaffine/linear/projection.hpp>
 #include <polyaffine/material/linear_elastic.hpp>
 #include <polyaffine/material/springs.hpp>
 #include <polyaffine/quadrature/consistent_weights.hpp>
 #include <polyaffine/quadrature/elastons.hpp>
-#include <polyaffine/solve/projection.hpp>
+#include <polyaffine/solve/newton.hpp>
+#include <polyaffine/system/field_term.hpp>
 
 namespace cardiac {
 
@@ -52,17 +54,16 @@ std::vector<FieldTable> load_tables(const Basis& basis, const SurfacePoints& bot
           resultant_table(displacement_table(basis, top))};
 }
 
-EquilibriumProblem compression(const FieldTable& wall, const std::vector<FieldTable>& loads) {
-  EquilibriumProblem problem;
-  problem.terms.push_back(
-      {std::make_shared<FieldEnergy>(wall, Laws{std::make_shared<LinearElastic>(kCubeElasticity)})});
+System compression(const FieldTable& wall, const std::vector<FieldTable>& loads) {
+  System out = field_system(wall.num_unknowns());
+  out.terms.push_back(
+      solid(std::make_shared<FieldEnergy>(wall, Laws{std::make_shared<LinearElastic>(kCubeElasticity)})));
   for (const int side : {0, 1}) {
     const Vec3 traction(0, 0, side == 0 ? kCubePressure : -kCubePressure);
-    problem.terms.push_back(
-        {std::make_shared<FieldEnergy>(loads[side], Laws{std::make_shared<DeadTraction>(traction)})});
-    problem.terms.back().wall = false;
+    out.terms.push_back(
+        load(std::make_shared<FieldEnergy>(loads[side], Laws{std::make_shared<DeadTraction>(traction)})));
   }
-  return problem;
+  return out;
 }
 
 // Three corners and the directions held there: statically determinate, so that they carry no force.
@@ -98,16 +99,14 @@ std::vector<char> hold_nodes(const LagrangeBasis& basis) {
 }
 
 // Newton's method from rest on a new system; `seconds` becomes its processor time where that is less.
-std::unique_ptr<LinearSystem> solve_from_rest(const EquilibriumProblem& problem,
-                                              const std::function<std::unique_ptr<LinearSystem>()>& make,
-                                              Vector& c, double& seconds) {
+std::unique_ptr<LinearSystem> solve_from_rest(const System& system, Vector& c, double& seconds) {
   const double start = processor_seconds();
   c.setZero();
-  std::unique_ptr<LinearSystem> system = make();
-  const NewtonReport report = newton(problem, 1, *system, c);
+  std::unique_ptr<LinearSystem> linear = system.make_linear();
+  const NewtonReport report = newton(system, 1, *linear, c);
   seconds = std::min(seconds, processor_seconds() - start);
   if (!report.converged()) throw ComputationError("cube: " + to_string(report.reason));
-  return system;
+  return linear;
 }
 
 std::shared_ptr<const Basis> make_basis(const CubeScene& scene, const CubePlacement& placement,
@@ -134,13 +133,12 @@ CubeSolution solve_cube_fem(const CubeScene& scene, int repeats) {
   const LagrangeBasis& basis = *scene.linear;
   const SurfacePoints bottom = scene.face(basis, kCubeBottom), top = scene.face(basis, kCubeTop);
   const FieldTable table = deformation_table(basis, basis.wall_points(1));
-  EquilibriumProblem problem = compression(table, load_tables(basis, bottom, top));
-  problem.fixed = hold_nodes(basis);
+  System system = compression(table, load_tables(basis, bottom, top));
+  system.fixed = hold_nodes(basis);
+  system.linear = [&table](const System& of) { return sparse_system({&table}, of.fixed); };
   Vector c = Vector::Zero(table.num_unknowns());
   CubeSolution out{{}, std::numeric_limits<double>::infinity()};
-  for (int k = 0; k < repeats; ++k)
-    solve_from_rest(
-        problem, [&] { return sparse_system({&table}, problem.fixed); }, c, out.solve_s);
+  for (int k = 0; k < repeats; ++k) solve_from_rest(system, c, out.solve_s);
   out.thickness = thickness(bottom, DisplacementMap(basis, bottom.tet, bottom.barycentric).apply(c), top,
                             DisplacementMap(basis, top.tet, top.barycentric).apply(c));
   return out;
@@ -172,10 +170,10 @@ CubeReduction::CubeReduction(const CubeScene& scene, const CubePlacement& placem
   relative_defect_ = defect_.norm() / constraint.scale[0];
 }
 
-EquilibriumProblem CubeReduction::problem(CubeWeights weights) const {
+System CubeReduction::system(CubeWeights weights) const {
   FieldTable table = table_;
   if (weights == CubeWeights::consistent) table.weights = consistent_;
-  EquilibriumProblem out = compression(table, loads_);
+  System out = compression(table, loads_);
   out.projection = supports_;
   return out;
 }
@@ -185,25 +183,22 @@ CubeThickness CubeReduction::measure(const Vector& c) const {
 }
 
 CubeSolution CubeReduction::solve(CubeWeights weights, int repeats) const {
-  const EquilibriumProblem of = problem(weights);
+  const System of = system(weights);
   Vector c = Vector::Zero(table_.num_unknowns());
   CubeSolution out{{}, std::numeric_limits<double>::infinity()};
-  for (int k = 0; k < repeats; ++k)
-    solve_from_rest(
-        of, [&] { return projected_system(supports_); }, c, out.solve_s);
+  for (int k = 0; k < repeats; ++k) solve_from_rest(of, c, out.solve_s);
   out.thickness = measure(c);
   return out;
 }
 
 CubeThickness CubeReduction::defect_response() const {
-  const EquilibriumProblem of = problem(CubeWeights::volumes);
+  const System of = system(CubeWeights::volumes);
   Vector c = Vector::Zero(table_.num_unknowns());
   double seconds = 0;
-  const auto system = solve_from_rest(
-      of, [&] { return projected_system(supports_); }, c, seconds);
+  const auto linear = solve_from_rest(of, c, seconds);
   const Mat3 stress = Vec3(0, 0, -kCubePressure).asDiagonal();
   const Vector spurious = (stress * defect_.reshaped(3, defect_.size() / 3)).reshaped();
-  return measure(-system->solve(spurious));
+  return measure(-linear->solve(spurious));
 }
 
 }  // namespace cardiac

@@ -3,7 +3,8 @@
 #include <optional>
 
 #include <cardiac/validation/cube_scene.hpp>
-#include <polyaffine/solve/equilibrium.hpp>
+#include <polyaffine/linear/projection.hpp>
+#include <polyaffine/system/system.hpp>
 
 namespace cardiac {
 
@@ -54,7 +55,7 @@ class CubeReduction {
   double correction_s() const { return correction_s_; }  ///< and of the consistent weights
 
  private:
-  polyaffine::EquilibriumProblem problem(CubeWeights weights) const;
+  polyaffine::System system(CubeWeights weights) const;
   CubeThickness measure(const polyaffine::Vector& c) const;
 
   polyaffine::FieldTable table_;               ///< with the volumes as weights

@@ -13,7 +13,9 @@
 #include <polyaffine/material/neo_hookean.hpp>
 #include <polyaffine/material/volumetric.hpp>
 #include <polyaffine/quadrature/consistent_weights.hpp>
-#include <polyaffine/solve/equilibrium.hpp>
+#include <polyaffine/solve/newton.hpp>
+#include <polyaffine/system/field_term.hpp>
+#include <polyaffine/system/sparse_field.hpp>
 
 namespace cardiac {
 
@@ -59,22 +61,23 @@ class PlatenFrames : public FrameField {
 };
 
 PlatenSolution solve(const CubeScene& scene, std::shared_ptr<const Basis> basis,
-                     const EquilibriumProblem& problem, LinearSystem& system, double start_s) {
+                     const std::shared_ptr<const FieldEnergy>& energy, System system, double start_s) {
   PlatenSolution out;
+  system.terms.push_back(solid(energy));
+  const auto linear = system.make_linear();
   const double built = processor_seconds();
   out.setup_s = built - start_s;
   out.c = Vector::Zero(3 * basis->num_functions());
-  const NewtonReport report = newton(problem, 1, system, out.c);
+  const NewtonReport report = newton(system, 1, *linear, out.c);
   out.solve_s = processor_seconds() - built;
   out.newton_iterations = report.iterations;
   if (!report.converged()) throw ComputationError("cube between platens: " + to_string(report.reason));
   const QuadraturePoints at = centroids(scene.mesh);
-  const FieldEnergy& energy = *problem.terms[0].energy;
   // Twice the energy is the force times the approach.
-  const double force = 2 * energy.evaluate({out.c}).value / kApproach;
+  const double force = 2 * energy->evaluate({out.c}).value / kApproach;
   out.thickness_change_mm = -kApproach * kForce / force;
   out.displacement = DisplacementMap(*basis, at.tet, at.barycentric).apply(out.c);
-  out.integration_points = energy.table().num_points();
+  out.integration_points = energy->table().num_points();
   out.basis = std::move(basis);
   return out;
 }
@@ -86,16 +89,16 @@ PlatenSolution solve_full_order(const CubeScene& scene, std::shared_ptr<const La
   const FieldTable table = deformation_table(basis, basis.wall_points(basis.order() == 1 ? 1 : 4));
   std::optional<PressureSpace> pressure;
   if (mean_dilatation) pressure = block_pressure(table, bulk_modulus());
-  EquilibriumProblem problem;
-  problem.terms.push_back({std::make_shared<FieldEnergy>(table, std::move(laws), pressure)});
-  problem.fixed.assign(table.num_unknowns(), 0);
-  problem.prescribed = Vector::Zero(table.num_unknowns());
+  const auto energy = std::make_shared<const FieldEnergy>(table, std::move(laws), pressure);
+  System system = field_system(table.num_unknowns());
+  system.linear = sparse_field;
+  system.fixed.assign(table.num_unknowns(), 0);
+  system.prescribed = Vector::Zero(table.num_unknowns());
   for (const int node : basis.surface_nodes(scene.mesh, {kCubeBottom, kCubeTop})) {
-    for (int k = 0; k < 3; ++k) problem.fixed[3 * node + k] = 1;
-    if (basis.nodes()(2, node) > kCubeSize / 2) problem.prescribed[3 * node + 2] = -kApproach;
+    for (int k = 0; k < 3; ++k) system.fixed[3 * node + k] = 1;
+    if (basis.nodes()(2, node) > kCubeSize / 2) system.prescribed[3 * node + 2] = -kApproach;
   }
-  const auto system = sparse_system({&table}, problem.fixed);
-  return solve(scene, std::move(of), problem, *system, start);
+  return solve(scene, std::move(of), energy, std::move(system), start);
 }
 
 }  // namespace
@@ -136,16 +139,15 @@ PlatenSolution solve_platens_reduced(const CubeScene& scene, const CubePlacement
   const double mu = lame(kCubeElasticity).mu, local = 4 * mu;
   const PressureSpace pressure =
       region_pressure(table, placement.integration.control, placement.num_zones(), bulk_modulus() - local);
-  EquilibriumProblem problem;
-  problem.terms.push_back({std::make_shared<FieldEnergy>(
+  const auto energy = std::make_shared<const FieldEnergy>(
       table, Laws{std::make_shared<IsochoricNeoHookean>(mu), std::make_shared<QuadraticVolumetric>(local)},
-      pressure)});
-  problem.fixed.assign(table.num_unknowns(), 0);
-  std::fill(problem.fixed.end() - 3, problem.fixed.end(), 1);
-  problem.prescribed = Vector::Zero(table.num_unknowns());
-  problem.prescribed[table.num_unknowns() - 1] = -kApproach;
-  const auto system = dense_system(table.num_unknowns(), problem.fixed);
-  return solve(scene, basis, problem, *system, start);
+      pressure);
+  System system = field_system(table.num_unknowns());
+  system.fixed.assign(table.num_unknowns(), 0);
+  std::fill(system.fixed.end() - 3, system.fixed.end(), 1);
+  system.prescribed = Vector::Zero(table.num_unknowns());
+  system.prescribed[table.num_unknowns() - 1] = -kApproach;
+  return solve(scene, basis, energy, std::move(system), start);
 }
 
 double platen_error_percent(const CubeScene& scene, const PlatenSolution& truth, const Points& displacement) {

@@ -9,9 +9,11 @@
 #include <cardiac/run/build_ventricle.hpp>
 #include <cardiac/run/errors.hpp>
 #include <polyaffine/kinematics/element_locator.hpp>
+#include <polyaffine/linear/projection.hpp>
 #include <polyaffine/material/signed_volume.hpp>
 #include <polyaffine/material/springs.hpp>
-#include <polyaffine/solve/projection.hpp>
+#include <polyaffine/solve/load_stepping.hpp>
+#include <polyaffine/system/support.hpp>
 
 namespace cardiac {
 
@@ -104,17 +106,17 @@ EllipsoidProblem::Solution EllipsoidProblem::solve(
     Ventricle ventricle, const std::shared_ptr<const polyaffine::Projection>& projection,
     int repetitions) const {
   Solution out{std::move(ventricle), {}, 0, true};
-  const auto system = projection ? polyaffine::projected_system(projection) : out.ventricle.make_system();
-  auto problem = loaded_ventricle(out.ventricle, {pressure_});
+  polyaffine::System system = loaded_ventricle(out.ventricle, {Vector{{pressure_}}});
   if (projection) {
-    problem.fixed.clear();
-    problem.projection = projection;
+    system.fixed.clear();
+    system.projection = projection;
   }
+  const auto linear = system.make_linear();
   std::vector<double> times;
   for (int k = 0; k < repetitions; ++k) {
     const auto start = std::chrono::steady_clock::now();
     out.c = Vector::Zero(out.ventricle.num_coefficients());
-    out.converged = newton(problem, 1, *system, out.c).converged() && out.converged;
+    out.converged = polyaffine::newton(system, 1, *linear, out.c).converged() && out.converged;
     times.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
   std::sort(times.begin(), times.end());
@@ -139,20 +141,16 @@ EllipsoidProblem::Solution EllipsoidProblem::solve_held(const std::vector<std::s
   d.fixed.assign(d.num_unknowns, 0);
   BuildCount built;
   v.wall = build_wall(*anatomy_, p, d, {}, built);
-  v.cavity = std::make_shared<FieldEnergy>(
-      polyaffine::surface_table(*d.basis, d.cavity_points, anatomy_->coordinates->base_centre()),
-      std::vector<std::shared_ptr<const polyaffine::Law>>{
-          std::make_shared<polyaffine::SignedVolume>(1.0 / 3)});
+  v.cavities = {cavity_of(*d.basis, d.cavities.front())};
   if (stiffness <= 0) {
     const auto held = fixed_base(*anatomy_, *d.basis);
     return solve(std::move(v), held, 1);
   }
   polyaffine::SurfacePoints base = base_points(*anatomy_);
   base.weights = areas(base);
-  v.springs.push_back(
-      std::make_shared<FieldEnergy>(polyaffine::displacement_table(*d.basis, base),
-                                    std::vector<std::shared_ptr<const polyaffine::Law>>{
-                                        std::make_shared<polyaffine::SurfaceSpring>(stiffness)}));
+  v.supports.push_back(std::make_shared<polyaffine::Support>(
+      polyaffine::displacement_table(*d.basis, base),
+      polyaffine::SupportParameters{.stiffness_kPa_per_mm = stiffness}));
   return solve(std::move(v), nullptr, 1);
 }
 

@@ -25,8 +25,8 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 bool finite(const HeartPath& path) {
   return std::ranges::all_of(path.steps, [](const HeartState& s) {
-    return s.c.allFinite() && std::isfinite(s.volume_mm3) && std::isfinite(s.pressure_kPa) &&
-           std::isfinite(s.capacitor_pressure_kPa);
+    return s.c.allFinite() && s.volumes_mm3.allFinite() && s.pressures_kPa.allFinite() &&
+           s.vessels_kPa.allFinite();
   });
 }
 
@@ -70,27 +70,27 @@ Check check_of(const ExtremeOutcome& outcome, const std::string& quantity, const
 }  // namespace
 
 double ExtremeOutcome::cavity_ratio() const {
-  return path.steps.empty() ? 1 : path.steps.back().volume_mm3 / cavity_at_rest_mm3;
+  return path.steps.empty() ? 1 : path.steps.back().volumes_mm3[0] / cavity_at_rest_mm3;
 }
 
 double ExtremeOutcome::smallest_ratio() const {
   double smallest = std::numeric_limits<double>::infinity();
-  for (const HeartState& s : path.steps) smallest = std::min(smallest, s.volume_mm3 / cavity_at_rest_mm3);
+  for (const HeartState& s : path.steps) smallest = std::min(smallest, s.volumes_mm3[0] / cavity_at_rest_mm3);
   return smallest;
 }
 
 double ExtremeOutcome::ef_percent() const {
   double low = std::numeric_limits<double>::infinity(), high = 0;
   for (const HeartState& s : path.steps) {
-    low = std::min(low, s.volume_mm3);
-    high = std::max(high, s.volume_mm3);
+    low = std::min(low, s.volumes_mm3[0]);
+    high = std::max(high, s.volumes_mm3[0]);
   }
   return 100 * (high - low) / high;
 }
 
 double ExtremeOutcome::peak_pressure_mmHg() const {
   double peak = -std::numeric_limits<double>::infinity();
-  for (const HeartState& s : path.steps) peak = std::max(peak, s.pressure_kPa);
+  for (const HeartState& s : path.steps) peak = std::max(peak, s.pressures_kPa[0]);
   return peak / kPa_per_mmHg;
 }
 
@@ -187,8 +187,9 @@ ExtremeOutcome ExtremeChecks::run(const std::string& scene, const ExtremeMesh& m
     const Ventricle ventricle = build_ventricle(anatomy, read, read.reduction.method);
     out.smallest_region_tets = smallest_region(ventricle.discretisation.region);
     out.cavity_at_rest_mm3 =
-        ventricle.cavity ? ventricle.cavity_volume(polyaffine::Vector::Zero(ventricle.num_coefficients()))
-                         : 0;
+        ventricle.cavities.empty()
+            ? 0
+            : ventricle.cavity_volume(polyaffine::Vector::Zero(ventricle.num_coefficients()));
     out.path =
         read.circulation ? run_beats(ventricle, read, control) : run_prescribed(ventricle, read, control);
     out.reason = out.path.stop_reason;

@@ -30,7 +30,7 @@ ExtremeOutcome beat(const ExtremeChecks& checks, double tolerance) {
 double difference(const HeartPath& path, const HeartPath& reference) {
   double out = path.outputs.size() == reference.outputs.size() ? 0 : HUGE_VAL;
   for (std::size_t k = 0; k < std::min(path.outputs.size(), reference.outputs.size()); ++k)
-    out = std::max(out, std::abs(path.outputs[k].volume_mm3 - reference.outputs[k].volume_mm3));
+    out = std::max(out, std::abs(path.outputs[k].volumes_mm3[0] - reference.outputs[k].volumes_mm3[0]));
   return out / reference.stroke_volumes_mm3.back();
 }
 

@@ -15,7 +15,8 @@
 #include <polyaffine/material/follower_pressure.hpp>
 #include <polyaffine/material/signed_volume.hpp>
 #include <polyaffine/material/volumetric.hpp>
-#include <polyaffine/solve/equilibrium.hpp>
+#include <polyaffine/solve/load_stepping.hpp>
+#include <polyaffine/system/field_term.hpp>
 
 namespace cardiac {
 namespace {
@@ -39,47 +40,39 @@ struct Model {
     if (tension_kPa > 0) laws.push_back(std::make_shared<ActiveStress>(fibres));
     const PressureSpace pressures = block_pressure(table, kPenalty * parameters.C_kPa, true);
     wall = std::make_shared<FieldEnergy>(std::move(table), std::move(laws), pressures);
-    PotentialTerm term{wall};
-    if (tension_kPa > 0) {
-      const auto tension = std::make_shared<Vector>(points.weights.size());
-      term.state = [tension, tension_kPa](double load) {
-        tension->setConstant(load * tension_kPa);
-        return PointState(tension->data(), static_cast<std::size_t>(tension->size()));
-      };
-    }
-    problem.terms.push_back(std::move(term));
+    system = field_system(wall->table().num_unknowns());
+    const Vector none = Vector::Zero(points.weights.size());
+    system.terms.push_back(
+        solid(wall, tension_kPa > 0 ? ramp(none, none.array() + tension_kPa) : PointValues()));
   }
 
   void press(std::shared_ptr<const FieldEnergy> energy, double scale) {
     surface = std::move(energy);
-    PotentialTerm term{surface};
-    term.scale = [scale](double load) { return load * scale; };
-    term.wall = false;
-    problem.terms.push_back(std::move(term));
+    system.terms.push_back(load(surface, [scale](double t) { return t * scale; }));
   }
 
   void hold(int label) {
-    problem.fixed.assign(wall->table().num_unknowns(), 0);
+    system.fixed.assign(wall->table().num_unknowns(), 0);
     for (const int node : basis.surface_nodes(mesh, {label}))
-      for (int k = 0; k < 3; ++k) problem.fixed[3 * node + k] = 1;
+      for (int k = 0; k < 3; ++k) system.fixed[3 * node + k] = 1;
   }
 
   LandSolution solve(const std::string& name) {
-    const auto system = sparse_system({&wall->table(), &surface->table()}, problem.fixed, true);
+    const auto linear = sparse_system({&wall->table(), &surface->table()}, system.fixed, true);
     LoadOptions options;
     options.largest_step = 0.1;  // the factors of one step then serve most of the next
     options.newton.tolerance = 1e-6;
-    options.newton.dilatation_tolerance = 1e-7;
+    options.newton.defect_tolerance = 1e-7;
     options.newton.contraction = 0.25;
     options.path_slack = 3e4;  // on the way there 3 % of the forces: only the last state counts
     c = Vector::Zero(wall->table().num_unknowns());
-    const LoadReport report = load_stepping(problem, *system, c, options);
+    const LoadReport report = load_stepping(system, *linear, c, options);
     if (!report.converged())
       throw ComputationError(name + ": stopped at " + std::to_string(100 * report.reached) +
                              " % of the load: " + to_string(report.last.reason));
     LandSolution out;
     out.tets = mesh.num_tets();
-    out.unknowns = static_cast<int>(c.size() - std::count(problem.fixed.begin(), problem.fixed.end(), 1));
+    out.unknowns = static_cast<int>(c.size() - std::count(system.fixed.begin(), system.fixed.end(), 1));
     out.load_steps = report.steps;
     out.newton_iterations = report.iterations;
     const double rest = wall_volume(Vector::Zero(c.size()));
@@ -108,7 +101,7 @@ struct Model {
   LagrangeBasis basis;
   WallPoints points;
   std::shared_ptr<const FieldEnergy> wall, surface;
-  EquilibriumProblem problem;
+  System system;
   Vector c;
 };
 

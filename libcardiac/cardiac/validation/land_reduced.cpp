@@ -10,6 +10,7 @@
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/core/single_thread.hpp>
 #include <polyaffine/kinematics/element_locator.hpp>
+#include <polyaffine/solve/load_stepping.hpp>
 
 namespace cardiac {
 namespace {
@@ -72,11 +73,11 @@ LandSolution solve_land_reduced(const polyaffine::TetMesh& mesh, bool contractin
   const auto anatomy = std::make_shared<const Anatomy>(
       build_anatomy(mesh, protocol, {.midpoints = exact_midpoints(shape, mesh), .fibres = fibres}));
   const Ventricle ventricle = build_ventricle(anatomy, protocol, protocol::Method::polyaffine);
-  WallLoad load{contracting ? 15.0 : 10.0};
+  WallLoad load{Vector{{contracting ? 15.0 : 10.0}}};
   if (contracting) load.tension = Vector::Constant(ventricle.discretisation.points.weights.size(), 60.0);
-  const auto system = ventricle.make_system();
+  const polyaffine::System system = loaded_ventricle(ventricle, load);
   Vector c = Vector::Zero(ventricle.num_coefficients());
-  const auto report = polyaffine::load_stepping(loaded_ventricle(ventricle, load), *system, c);
+  const auto report = polyaffine::load_stepping(system, *system.make_linear(), c);
   if (!report.converged())
     throw polyaffine::ComputationError("land, reduced: stopped at " + std::to_string(100 * report.reached) +
                                        " % of the load: " + polyaffine::to_string(report.last.reason));

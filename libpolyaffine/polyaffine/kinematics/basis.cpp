@@ -147,6 +147,13 @@ FieldTable displacement_table(const Basis& basis, const SurfacePoints& points) {
   return table;
 }
 
+FieldTable displacement_table(const Basis& basis, const WallPoints& points) {
+  FieldTable table =
+      make_table(basis, points.tet, points.barycentric, points.weights, points.starts, ValueRows());
+  table.base = Matrix::Zero(9, points.weights.size());
+  return table;
+}
+
 DisplacementMap::DisplacementMap(const Basis& basis, const std::vector<int>& tet,
                                  const Eigen::Matrix4Xd& barycentric)
     : num_functions_(basis.num_functions()), start_{0} {

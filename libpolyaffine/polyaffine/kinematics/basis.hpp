@@ -59,6 +59,9 @@ FieldTable surface_table(const Basis& basis, const SurfacePoints& points, const 
 /// M = [u, 0, 0] on a surface, the weights being areas (mm²): for springs and dead forces.
 FieldTable displacement_table(const Basis& basis, const SurfacePoints& points);
 
+/// M = [u, 0, 0] in the body, the weights being volumes (mm³): for inertia and forces of volume.
+FieldTable displacement_table(const Basis& basis, const WallPoints& points);
+
 /// Displacement at points, 3 × points, mm.
 class DisplacementMap {
  public:

@@ -1,13 +1,28 @@
 #pragma once
 
+#include <span>
+
 #include <polyaffine/material/pack.hpp>
 
 namespace polyaffine {
+
+/// One scalar of state per integration point (an active tension in kPa, for instance); empty when there is
+/// none.
+using PointState = std::span<const double>;
 
 /// The points of one pack: indices point … point + lanes − 1.
 struct PackPoints {
   int point;
   int lanes;
+};
+
+/// What a law sees of one pack of points.
+struct PackMotion {
+  const Mat3Pack& F;
+  PointState state = {};           ///< of all points
+  const Mat3Pack* rate = nullptr;  ///< Ḟ, 1/ms; null where nothing moves
+  /// α, 1/ms: the tangent is ∂P/∂F + α ∂P/∂Ḟ.
+  double rate_factor = 0;
 };
 
 /// Energy, stress and tangent of one pack of points. Entry iJ of a 3×3 matrix has index i + 3J; of the

@@ -2,8 +2,8 @@
 
 namespace polyaffine {
 
-void FollowerPressure::respond(PackPoints, const Mat3Pack& M, PointState, bool tangent,
-                               PackResponse& r) const {
+void FollowerPressure::respond(PackPoints, const PackMotion& at, bool tangent, PackResponse& r) const {
+  const Mat3Pack& M = at.F;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
     r.P[i] += M(j, 1) * M(k, 2) - M(k, 1) * M(j, 2);

@@ -11,8 +11,7 @@ namespace polyaffine {
 /// SignedVolume gives the same force with a potential.
 class FollowerPressure : public Law {
  public:
-  void respond(PackPoints points, const Mat3Pack& M, PointState state, bool tangent,
-               PackResponse& r) const override;
+  void respond(PackPoints points, const PackMotion& at, bool tangent, PackResponse& r) const override;
 };
 
 }  // namespace polyaffine

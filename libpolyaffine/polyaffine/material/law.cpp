@@ -11,7 +11,8 @@ void Law::evaluate(int first, int count, const double* F, PointState state, doub
     const std::ptrdiff_t offset = start;
     PackResponse r;
     clear(r, A != nullptr);
-    respond({first + start, lanes}, gather_matrix(F + 9 * offset, lanes), state, A != nullptr, r);
+    const Mat3Pack gathered = gather_matrix(F + 9 * offset, lanes);
+    respond({first + start, lanes}, {gathered, state}, A != nullptr, r);
     if (W) scatter_add(W + offset, 1, lanes, r.W);
     if (P) scatter_add_points<9>(P + 9 * offset, lanes, r.P);
     if (!A) continue;

@@ -7,8 +7,8 @@ namespace polyaffine {
 LinearElastic::LinearElastic(const Elasticity& elasticity, std::vector<double> factor)
     : lame_(lame(elasticity)), factor_(std::move(factor)) {}
 
-void LinearElastic::respond(PackPoints points, const Mat3Pack& f, PointState, bool tangent,
-                            PackResponse& r) const {
+void LinearElastic::respond(PackPoints points, const PackMotion& at, bool tangent, PackResponse& r) const {
+  const Mat3Pack& f = at.F;
   const auto [lambda, mu] = lame_;
   const Pack trace = f(0, 0) + f(1, 1) + f(2, 2) - 3;
   r.W = 0.5 * lambda * trace * trace;

@@ -11,8 +11,7 @@ class LinearElastic : public Law {
  public:
   /// E in kPa and ν, times `factor` (one per point, empty = 1). Throws InputError as `lame` does.
   explicit LinearElastic(const Elasticity& elasticity, std::vector<double> factor = {});
-  void respond(PackPoints points, const Mat3Pack& F, PointState state, bool tangent,
-               PackResponse& r) const override;
+  void respond(PackPoints points, const PackMotion& at, bool tangent, PackResponse& r) const override;
 
  private:
   Lame lame_;

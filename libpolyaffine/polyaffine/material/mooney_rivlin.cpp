@@ -12,8 +12,8 @@ MooneyRivlin::MooneyRivlin(MooneyRivlinParameters parameters, std::vector<double
   require_positive("Mooney-Rivlin c1 + c2", parameters.c1 + parameters.c2, "kPa");
 }
 
-void MooneyRivlin::respond(PackPoints points, const Mat3Pack& f, PointState, bool tangent,
-                           PackResponse& r) const {
+void MooneyRivlin::respond(PackPoints points, const PackMotion& at, bool tangent, PackResponse& r) const {
+  const Mat3Pack& f = at.F;
   const auto [c1, c2] = parameters_;
   const IsochoricStrain strain = isochoric_strain(right_cauchy_green(f), determinant(f, cofactor(f)));
   const SymPack& C = strain.C_bar;

@@ -18,8 +18,7 @@ class MooneyRivlin : public Law {
   /// `factor` multiplies W (one per point, empty = 1). Throws InputError for a negative constant, or when
   /// both are zero.
   explicit MooneyRivlin(MooneyRivlinParameters parameters, std::vector<double> factor = {});
-  void respond(PackPoints points, const Mat3Pack& F, PointState state, bool tangent,
-               PackResponse& r) const override;
+  void respond(PackPoints points, const PackMotion& at, bool tangent, PackResponse& r) const override;
 
  private:
   MooneyRivlinParameters parameters_;

@@ -10,8 +10,8 @@ NeoHookean::NeoHookean(Lame lame, std::vector<double> factor) : lame_(lame), fac
   require_not_negative("Lame constant (lambda)", lame.lambda, "kPa");
 }
 
-void NeoHookean::respond(PackPoints points, const Mat3Pack& f, PointState, bool tangent,
-                         PackResponse& r) const {
+void NeoHookean::respond(PackPoints points, const PackMotion& at, bool tangent, PackResponse& r) const {
+  const Mat3Pack& f = at.F;
   const auto [lambda, mu] = lame_;
   const Mat3Pack cof = cofactor(f);
   const Pack J = determinant(f, cof), inverse = 1 / J, log_J = log(J);
@@ -33,8 +33,9 @@ IsochoricNeoHookean::IsochoricNeoHookean(double shear_modulus, std::vector<doubl
   require_positive("shear modulus (mu)", shear_modulus, "kPa");
 }
 
-void IsochoricNeoHookean::respond(PackPoints points, const Mat3Pack& f, PointState, bool tangent,
+void IsochoricNeoHookean::respond(PackPoints points, const PackMotion& at, bool tangent,
                                   PackResponse& r) const {
+  const Mat3Pack& f = at.F;
   const IsochoricStrain strain = isochoric_strain(right_cauchy_green(f), determinant(f, cofactor(f)));
   const SymPack& C = strain.C_bar;
   LagrangianResponse l{};

@@ -11,8 +11,7 @@ class NeoHookean : public Law {
   /// `lame` λ ≥ 0 and μ > 0 in kPa (from E and ν: `lame({E, nu})`), times `factor` (one per point,
   /// empty = 1). Throws InputError.
   explicit NeoHookean(Lame lame, std::vector<double> factor = {});
-  void respond(PackPoints points, const Mat3Pack& F, PointState state, bool tangent,
-               PackResponse& r) const override;
+  void respond(PackPoints points, const PackMotion& at, bool tangent, PackResponse& r) const override;
 
  private:
   Lame lame_;
@@ -26,8 +25,7 @@ class IsochoricNeoHookean : public Law {
  public:
   /// `shear_modulus` μ in kPa, > 0, times `factor` (one per point, empty = 1). Throws InputError.
   explicit IsochoricNeoHookean(double shear_modulus, std::vector<double> factor = {});
-  void respond(PackPoints points, const Mat3Pack& F, PointState state, bool tangent,
-               PackResponse& r) const override;
+  void respond(PackPoints points, const PackMotion& at, bool tangent, PackResponse& r) const override;
 
  private:
   double shear_modulus_;

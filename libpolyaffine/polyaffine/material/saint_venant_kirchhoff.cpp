@@ -8,8 +8,9 @@ namespace polyaffine {
 SaintVenantKirchhoff::SaintVenantKirchhoff(const Elasticity& elasticity, std::vector<double> factor)
     : lame_(lame(elasticity)), factor_(std::move(factor)) {}
 
-void SaintVenantKirchhoff::respond(PackPoints points, const Mat3Pack& f, PointState, bool tangent,
+void SaintVenantKirchhoff::respond(PackPoints points, const PackMotion& at, bool tangent,
                                    PackResponse& r) const {
+  const Mat3Pack& f = at.F;
   const auto [lambda, mu] = lame_;
   SymPack E = right_cauchy_green(f);
   for (int a = 0; a < 6; ++a) E.v[a] = 0.5 * (a < 3 ? E.v[a] - 1 : E.v[a]);

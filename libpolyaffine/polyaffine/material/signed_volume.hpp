@@ -11,8 +11,7 @@ namespace polyaffine {
 class SignedVolume : public Law {
  public:
   explicit SignedVolume(double scale) : scale_(scale) {}
-  void respond(PackPoints points, const Mat3Pack& M, PointState state, bool tangent,
-               PackResponse& r) const override;
+  void respond(PackPoints points, const PackMotion& at, bool tangent, PackResponse& r) const override;
 
  private:
   double scale_;

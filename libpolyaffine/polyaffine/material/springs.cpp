@@ -12,8 +12,8 @@ SurfaceSpring::SurfaceSpring(double stiffness, Points normals) : SurfaceSpring(s
   normals_ = std::move(normals);
 }
 
-void SurfaceSpring::respond(PackPoints points, const Mat3Pack& M, PointState, bool tangent,
-                            PackResponse& r) const {
+void SurfaceSpring::respond(PackPoints points, const PackMotion& at, bool tangent, PackResponse& r) const {
+  const Mat3Pack& M = at.F;
   const bool along_normal = normals_.size() > 0;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
@@ -29,7 +29,8 @@ void SurfaceSpring::respond(PackPoints points, const Mat3Pack& M, PointState, bo
   }
 }
 
-void DeadTraction::respond(PackPoints, const Mat3Pack& M, PointState, bool, PackResponse& r) const {
+void DeadTraction::respond(PackPoints, const PackMotion& at, bool, PackResponse& r) const {
+  const Mat3Pack& M = at.F;
   for (int i = 0; i < 3; ++i) {
     r.W -= traction_[i] * M.m[i];
     r.P[i] = broadcast(-traction_[i]);

@@ -14,8 +14,7 @@ class SurfaceSpring : public Law {
   explicit SurfaceSpring(double stiffness);
   /// Along unit normals, one a point.
   SurfaceSpring(double stiffness, Points normals);
-  void respond(PackPoints points, const Mat3Pack& M, PointState state, bool tangent,
-               PackResponse& r) const override;
+  void respond(PackPoints points, const PackMotion& at, bool tangent, PackResponse& r) const override;
 
  private:
   double stiffness_;
@@ -26,8 +25,7 @@ class SurfaceSpring : public Law {
 class DeadTraction : public Law {
  public:
   explicit DeadTraction(const Vec3& traction) : traction_(traction) {}
-  void respond(PackPoints points, const Mat3Pack& M, PointState state, bool tangent,
-               PackResponse& r) const override;
+  void respond(PackPoints points, const PackMotion& at, bool tangent, PackResponse& r) const override;
 
  private:
   Vec3 traction_;

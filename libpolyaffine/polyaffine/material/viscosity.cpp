@@ -35,13 +35,14 @@ KelvinVoigt::KelvinVoigt(double viscosity, std::vector<double> factor)
   require_not_negative("viscosity", viscosity, "kPa ms");
 }
 
-void KelvinVoigt::respond(PackPoints points, const Mat3Pack& F, const Mat3Pack& F_dot, double rate_factor,
-                          bool tangent, PackResponse& r) const {
+void KelvinVoigt::respond(PackPoints points, const PackMotion& at, bool tangent, PackResponse& r) const {
+  if (!at.rate) return;
+  const Mat3Pack &F = at.F, &F_dot = *at.rate;
   const Pack half_eta = 0.5 * viscosity_ * factor_.at(points);
   add_constant_stress(F, broadcast(0), viscous_stress(half_eta, F, F_dot), false, r);
   if (!tangent) return;
   const Mat3Pack b = multiply_transposed(F, F);
-  const Pack scale = rate_factor * half_eta;
+  const Pack scale = at.rate_factor * half_eta;
 #pragma GCC unroll 9
   for (int row = 0; row < 9; ++row)
 #pragma GCC unroll 9
@@ -62,7 +63,7 @@ void KelvinVoigt::evaluate(int first, int count, const double* F, const double* 
     const Mat3Pack f = gather_matrix(F + 9 * offset, lanes), rate = gather_matrix(F_dot + 9 * offset, lanes);
     PackResponse r;
     clear(r, A_dot != nullptr);
-    respond(points, f, rate, 1, A_dot != nullptr, r);
+    respond(points, {f, {}, &rate, 1}, A_dot != nullptr, r);
     if (P) scatter_add_points<9>(P + 9 * offset, lanes, r.P);
     if (A_dot) {
       mirror(r);

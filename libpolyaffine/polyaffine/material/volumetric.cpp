@@ -10,8 +10,9 @@ QuadraticVolumetric::QuadraticVolumetric(double bulk_modulus, std::vector<double
   require_positive("bulk modulus", bulk_modulus, "kPa");
 }
 
-void QuadraticVolumetric::respond(PackPoints points, const Mat3Pack& f, PointState, bool tangent,
+void QuadraticVolumetric::respond(PackPoints points, const PackMotion& at, bool tangent,
                                   PackResponse& r) const {
+  const Mat3Pack& f = at.F;
   const Mat3Pack cof = cofactor(f);
   const Pack dJ = determinant(f, cof) - 1;
   const Pack kappa = broadcast(bulk_modulus_);
@@ -24,8 +25,9 @@ LogarithmicVolumetric::LogarithmicVolumetric(double bulk_modulus, std::vector<do
   require_positive("bulk modulus", bulk_modulus, "kPa");
 }
 
-void LogarithmicVolumetric::respond(PackPoints points, const Mat3Pack& f, PointState, bool tangent,
+void LogarithmicVolumetric::respond(PackPoints points, const PackMotion& at, bool tangent,
                                     PackResponse& r) const {
+  const Mat3Pack& f = at.F;
   const Mat3Pack cof = cofactor(f);
   const Pack J = determinant(f, cof), inverse = 1 / J;
   const double kappa = bulk_modulus_;

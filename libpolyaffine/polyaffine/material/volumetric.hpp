@@ -10,8 +10,7 @@ class QuadraticVolumetric : public Law {
  public:
   /// `bulk_modulus` κ in kPa, > 0, times `factor` (one per point, empty = 1). Throws InputError.
   explicit QuadraticVolumetric(double bulk_modulus, std::vector<double> factor = {});
-  void respond(PackPoints points, const Mat3Pack& F, PointState state, bool tangent,
-               PackResponse& r) const override;
+  void respond(PackPoints points, const PackMotion& at, bool tangent, PackResponse& r) const override;
 
  private:
   double bulk_modulus_;
@@ -24,8 +23,7 @@ class LogarithmicVolumetric : public Law {
  public:
   /// `bulk_modulus` κ in kPa, > 0, times `factor` (one per point, empty = 1). Throws InputError.
   explicit LogarithmicVolumetric(double bulk_modulus, std::vector<double> factor = {});
-  void respond(PackPoints points, const Mat3Pack& F, PointState state, bool tangent,
-               PackResponse& r) const override;
+  void respond(PackPoints points, const PackMotion& at, bool tangent, PackResponse& r) const override;
 
  private:
   double bulk_modulus_;

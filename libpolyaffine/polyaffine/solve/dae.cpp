@@ -6,7 +6,10 @@
 #include <sundials/sundials_linearsolver.h>
 #include <sundials/sundials_matrix.h>
 
+#include <cmath>
+
 #include <polyaffine/core/error.hpp>
+#include <polyaffine/core/stopwatch.hpp>
 #include <polyaffine/solve/secant_updates.hpp>
 
 namespace polyaffine {
@@ -58,9 +61,10 @@ SUNLinearSolver_Type solver_type(SUNLinearSolver) {
 }
 // The system's factorisation, improved by what the iterations since then have shown.
 struct DirectSolver {
-  DaeSystem* system = nullptr;
+  Linearised* linearised = nullptr;
   SecantUpdates updates;
   N_Vector weights = nullptr;
+  void* ida = nullptr;
 };
 
 int solver_setup(SUNLinearSolver S, SUNMatrix) {
@@ -73,8 +77,14 @@ int solver_scaling(SUNLinearSolver S, N_Vector weights, N_Vector) {
 }
 int solver_solve(SUNLinearSolver S, SUNMatrix, N_Vector x, N_Vector b, realtype) {
   auto& solver = *static_cast<DirectSolver*>(S->content);
+  N_Vector y = nullptr, rate = nullptr;  // the iterate that b is the residual of
+  double t = 0;
+  IDAGetCurrentTime(solver.ida, &t);
+  IDAGetCurrentY(solver.ida, &y);
+  IDAGetCurrentYp(solver.ida, &rate);
+  const Vector y_now = view(y), rate_now = view(rate);
   Vector out;
-  if (!solver.system->solve(view(b), out) || !out.allFinite()) return 1;
+  if (!solver.linearised->solve({t, y_now, &rate_now}, view(b), out)) return 1;
   solver.updates.improve(view(solver.weights), out);
   Eigen::Map<Vector>(N_VGetArrayPointer(x), out.size()) = out;
   return 0;
@@ -98,33 +108,62 @@ SUNLinearSolver make_solver(DirectSolver& content, SUNContext context) {
 
 // What IDA hands back to the callbacks.
 struct UserData {
-  DaeSystem* system = nullptr;
-  DaeOptions options;
+  const System* system = nullptr;
   DirectSolver* solver = nullptr;
-  double t = 0;  // of the last residual
+  double relative_tolerance = 0;
+  Vector absolute_tolerance, error_weight;  // by unknown
+  double t = 0;                             // of the last residual
+  double min_det = 1, max_det = 1;
+  SystemCost cost;
 };
 
 int residual(realtype t, N_Vector y, N_Vector rate, N_Vector out, void* user) {
   auto& data = *static_cast<UserData*>(user);
+  const Stopwatch watch(data.cost.residual_s);
+  ++data.cost.residuals;
   if (t != data.t) data.solver->updates.restart();
   data.t = t;
-  Vector r;
-  if (!data.system->residual(t, view(y), view(rate), r) || !r.allFinite()) return 1;
-  Eigen::Map<Vector>(N_VGetArrayPointer(out), r.size()) = r;
+  const Vector y_now = view(y), rate_now = view(rate);
+  const Residual r = data.system->residual({t, y_now, &rate_now});
+  if (!r.admissible()) return 1;
+  if (std::isfinite(r.min_det)) {
+    data.min_det = r.min_det;
+    data.max_det = r.max_det;
+  }
+  Eigen::Map<Vector>(N_VGetArrayPointer(out), r.values.size()) = r.values;
   return 0;
 }
 
 int jacobian(realtype t, realtype alpha, N_Vector y, N_Vector rate, N_Vector, SUNMatrix, void* user, N_Vector,
              N_Vector, N_Vector) {
-  return static_cast<UserData*>(user)->system->factorise(t, view(y), view(rate), alpha) ? 0 : 1;
+  const Vector y_now = view(y), rate_now = view(rate);
+  return static_cast<UserData*>(user)->solver->linearised->factorise({t, y_now, &rate_now}, alpha) ? 0 : 1;
 }
 
 int error_weights(N_Vector y, N_Vector weights, void* user) {
-  const DaeOptions& o = static_cast<UserData*>(user)->options;
+  const auto& data = *static_cast<UserData*>(user);
   Eigen::Map<Vector> w(N_VGetArrayPointer(weights), N_VGetLength(weights));
-  w = (o.relative_tolerance * view(y).array().abs() + o.absolute_tolerance.array()).inverse();
-  if (o.error_weight.size() > 0) w.array() *= o.error_weight.array();
+  w = data.error_weight.array() /
+      (data.relative_tolerance * view(y).array().abs() + data.absolute_tolerance.array());
   return 0;
+}
+
+// The tolerances of a layout's unknowns and their weights in the error norm.
+void set_tolerances(const StateLayout& layout, UserData& data) {
+  data.absolute_tolerance.resize(layout.size());
+  data.error_weight = Vector::Ones(layout.size());
+  for (const Block& block : layout.blocks())
+    block.at.of(data.absolute_tolerance).setConstant(block.absolute_tolerance);
+  const double field = layout.field().size, few = static_cast<double>(layout.few().size());
+  if (field > 0 && few > 0) data.error_weight(layout.few()).setConstant(std::sqrt(field / few));
+}
+
+// 1 for the unknowns that the error test sees, 0 for the others; empty where it sees all.
+Vector error_tested(const StateLayout& layout) {
+  Vector out = Vector::Ones(layout.size());
+  for (const Block& block : layout.blocks())
+    if (!block.error_tested) block.at.of(out).setZero();
+  return out.minCoeff() > 0 ? Vector() : out;
 }
 
 void check(int flag, const char* what) {
@@ -142,7 +181,7 @@ std::string describe(int flag) {
     case IDA_LSETUP_FAIL:
       return "the tangent is singular with the smallest step";
     case IDA_REP_RES_ERR:
-      return "the wall turns inside out (det F not positive) with the smallest step";
+      return "the body turns inside out (det F not positive) with the smallest step";
     case IDA_TOO_MUCH_ACC:
       return "the tolerance is below rounding error";
     default:
@@ -157,13 +196,16 @@ struct DaeIntegrator::Implementation {
   void* ida = nullptr;
   N_Vector y = nullptr, rate = nullptr;
   SUNMatrix matrix = nullptr;
+  std::unique_ptr<LinearSystem> linear;
+  Linearised linearised;
   DirectSolver direct;
   SUNLinearSolver solver = nullptr;
   UserData user;
-  double t = 0;
+  double t = 0, max_step = 0;
   Vector y_out, rate_out;
   std::string failure;
 
+  explicit Implementation(const System& system) : linear(system.make_linear()), linearised(system, *linear) {}
   ~Implementation() {
     if (ida) IDAFree(&ida);
     if (solver) SUNLinSolFree(solver);
@@ -174,12 +216,17 @@ struct DaeIntegrator::Implementation {
   }
 };
 
-DaeIntegrator::DaeIntegrator(DaeSystem& system, const DaeOptions& options, double t, const Vector& y,
+DaeIntegrator::DaeIntegrator(const System& system, const DaeOptions& options, double t, const Vector& y,
                              const Vector& rate)
-    : impl_(std::make_unique<Implementation>()) {
+    : impl_(std::make_unique<Implementation>(system)) {
   auto& m = *impl_;
-  m.user = {&system, options, &m.direct, t};
-  m.direct.system = &system;
+  m.max_step = options.max_step;
+  m.user.system = &system;
+  m.user.solver = &m.direct;
+  m.user.relative_tolerance = options.relative_tolerance;
+  m.user.t = t;
+  set_tolerances(system.layout, m.user);
+  m.direct.linearised = &m.linearised;
   m.t = t;
   m.y_out = y;
   m.rate_out = rate;
@@ -189,7 +236,7 @@ DaeIntegrator::DaeIntegrator(DaeSystem& system, const DaeOptions& options, doubl
   m.rate = N_VNew_Serial(n, m.context);
   Eigen::Map<Vector>(N_VGetArrayPointer(m.y), n) = y;
   Eigen::Map<Vector>(N_VGetArrayPointer(m.rate), n) = rate;
-  m.ida = IDACreate(m.context);
+  m.direct.ida = m.ida = IDACreate(m.context);
   check(IDAInit(m.ida, residual, t, m.y, m.rate), "IDAInit");
   check(IDASetUserData(m.ida, &m.user), "IDASetUserData");
   check(IDASetErrFile(m.ida, nullptr), "IDASetErrFile");
@@ -207,8 +254,8 @@ DaeIntegrator::DaeIntegrator(DaeSystem& system, const DaeOptions& options, doubl
   check(IDASetEtaMin(m.ida, kStepCut), "IDASetEtaMin");
   check(IDASetEtaLow(m.ida, kStepCut), "IDASetEtaLow");
   check(IDASetEtaMinErrFail(m.ida, kStepCut), "IDASetEtaMinErrFail");
-  if (options.error_tested.size() > 0) {
-    N_Vector tested = N_VMake_Serial(n, m.user.options.error_tested.data(), m.context);
+  if (Vector by_unknown = error_tested(system.layout); by_unknown.size() > 0) {
+    N_Vector tested = N_VMake_Serial(n, by_unknown.data(), m.context);
     check(IDASetId(m.ida, tested), "IDASetId");  // copies
     N_VDestroy(tested);
     check(IDASetSuppressAlg(m.ida, SUNTRUE), "IDASetSuppressAlg");
@@ -223,8 +270,7 @@ DaeStatus DaeIntegrator::step(double limit) {
   auto& m = *impl_;
   double h = 0;
   check(IDAGetCurrentStep(m.ida, &h), "IDAGetCurrentStep");
-  const double largest = m.user.options.max_step;
-  const bool may_grow = largest <= 0 || kStepGrowth * h < largest;
+  const bool may_grow = m.max_step <= 0 || kStepGrowth * h < m.max_step;
   check(IDASetEtaFixedStepBounds(m.ida, 1.0, may_grow ? kStepGrowth : kNoGrowth), "IDASetEtaFixedStepBounds");
   check(IDASetStopTime(m.ida, limit), "IDASetStopTime");
   double reached = m.t;
@@ -258,6 +304,19 @@ const Vector& DaeIntegrator::rate() const {
 }
 const std::string& DaeIntegrator::failure() const {
   return impl_->failure;
+}
+
+double DaeIntegrator::min_det() const {
+  return impl_->user.min_det;
+}
+double DaeIntegrator::max_det() const {
+  return impl_->user.max_det;
+}
+
+SystemCost DaeIntegrator::cost() const {
+  SystemCost out = impl_->linearised.cost();
+  out += impl_->user.cost;
+  return out;
 }
 
 DaeCounters DaeIntegrator::counters() const {

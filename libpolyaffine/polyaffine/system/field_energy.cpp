@@ -55,18 +55,15 @@ void for_blocks(bool parallel, int count, const Work& work, const Finish& finish
 }  // namespace
 
 struct FieldEnergy::Kinematics {
-  std::vector<Mat3Pack> F, rate;  // of all packs; the rate only with viscosity
+  std::vector<Mat3Pack> F, rate;  // of all packs; the rate only where a law feels it
   Vector J;                       // det F of all points
   Vector g, p;                    // volume constraint and pressure coefficients
 };
 
 FieldEnergy::FieldEnergy(FieldTable table, std::vector<std::shared_ptr<const Law>> laws,
-                         std::optional<PressureSpace> pressure, std::optional<KelvinVoigt> viscosity)
-    : table_(std::move(table)),
-      laws_(std::move(laws)),
-      pressure_(std::move(pressure)),
-      viscosity_(std::move(viscosity)),
-      first_pack_{0} {
+                         std::optional<PressureSpace> pressure)
+    : table_(std::move(table)), laws_(std::move(laws)), pressure_(std::move(pressure)), first_pack_{0} {
+  for (const auto& law : laws_) feels_rate_ = feels_rate_ || law->feels_rate();
   if (pressure_) inverse_mass_ = InverseMass(*pressure_, table_);
   for (const auto& block : table_.blocks) {
     packed_.emplace_back(block, table_);
@@ -76,7 +73,7 @@ FieldEnergy::FieldEnergy(FieldTable table, std::vector<std::shared_ptr<const Law
 
 FieldEnergy::Kinematics FieldEnergy::kinematics(const Motion& motion) const {
   Kinematics kin;
-  const bool with_rate = viscosity_ && motion.rate;
+  const bool with_rate = feels_rate_ && motion.rate;
   kin.F.resize(first_pack_.back());
   if (with_rate) kin.rate.resize(first_pack_.back());
   kin.J.resize(table_.num_points());
@@ -114,18 +111,19 @@ void FieldEnergy::respond(const Kinematics& kin, const Motion& motion, std::size
                           int pack, bool tangent, double rate_factor, PackResponse& r) const {
   const PackPoints points = packed_[k].points(pack);
   const int at = first_pack_[k] + pack;
+  const PackMotion seen{kin.F[at], motion.state, kin.rate.empty() ? nullptr : &kin.rate[at], rate_factor};
   clear(r, tangent);
   for (const auto& law : laws_) {
+    if (law->feels_rate() && !seen.rate) continue;
     if (&law == &laws_.front()) {
-      law->respond(points, kin.F[at], motion.state, tangent, r);
+      law->respond(points, seen, tangent, r);
       continue;
     }
     PackResponse own;
     clear(own, tangent);
-    law->respond(points, kin.F[at], motion.state, tangent, own);
+    law->respond(points, seen, tangent, own);
     add(own, tangent, r);
   }
-  if (!kin.rate.empty()) viscosity_->respond(points, kin.F[at], kin.rate[at], rate_factor, tangent, r);
   if (pressure.size() > 0)
     add_volumetric(
         kin.F[at], cofactor(kin.F[at]),

@@ -7,12 +7,11 @@
 #include <polyaffine/kinematics/packed_block.hpp>
 #include <polyaffine/linear/linear_system.hpp>
 #include <polyaffine/material/law.hpp>
-#include <polyaffine/material/viscosity.hpp>
 #include <polyaffine/system/pressure_space.hpp>
 
 namespace polyaffine {
 
-/// What an energy is evaluated at. `rate` (the time derivative of c) matters only where there is viscosity.
+/// What an energy is evaluated at. `rate` (the time derivative of c) matters only to laws that feel it.
 /// `pressure` makes the coefficients of the pressure space independent (mixed form); without it they follow
 /// the displacement, p = κ M⁻¹ g(c) (condensed form).
 struct Motion {
@@ -44,16 +43,17 @@ struct PointTerms {
 /// f_a = Σ_q w_q P_q row_a and tangent Σ_q w_q B_qᵀ A_q B_q. Units: µJ, mN, mN/mm for the wall; with the
 /// signed volume law on a surface table, mm³ and its derivatives.
 ///
-/// The optional pressure space adds the volumetric energy (see PressureSpace); the optional viscosity adds
-/// its stress to the gradient (it has no energy) and `rate_factor` times its derivative by the rate to the
+/// The optional pressure space adds the volumetric energy (see PressureSpace). Laws that feel the rate
+/// (viscosity) add their stress to the gradient and `rate_factor` times its derivative by the rate to the
 /// tangent.
 class FieldEnergy {
  public:
   FieldEnergy(FieldTable table, std::vector<std::shared_ptr<const Law>> laws,
-              std::optional<PressureSpace> pressure = {}, std::optional<KelvinVoigt> viscosity = {});
+              std::optional<PressureSpace> pressure = {});
 
   const FieldTable& table() const { return table_; }
   const std::optional<PressureSpace>& pressure_space() const { return pressure_; }
+  bool feels_rate() const { return feels_rate_; }
 
   /// Value and gradient; when min_det ≤ 0 in a wall the numbers are not to be used.
   EnergyValue evaluate(const Motion& motion) const;
@@ -83,7 +83,7 @@ class FieldEnergy {
   FieldTable table_;
   std::vector<std::shared_ptr<const Law>> laws_;
   std::optional<PressureSpace> pressure_;
-  std::optional<KelvinVoigt> viscosity_;
+  bool feels_rate_ = false;
   InverseMass inverse_mass_;
   std::vector<PackedBlock> packed_;
   std::vector<int> first_pack_;  // of each block, and their number

@@ -56,7 +56,7 @@ TEST(Parts, PassiveInflationBuildsNothingOfABeat) {
     EXPECT_FALSE(builds(items, part)) << part;
   }
   EXPECT_EQ(run.ventricle.contraction, nullptr);
-  EXPECT_TRUE(run.ventricle.springs.empty());
+  EXPECT_TRUE(run.ventricle.supports.empty());
 }
 
 TEST(Parts, HealthyVentricleBuildsEachPartOnce) {
@@ -92,7 +92,7 @@ contraction = {}
   EXPECT_EQ(ventricle.built,
             (BuildCount{{"fibres", 1}, {"activation", 1}, {"contraction", 1}, {"reduction", 1}}));
   expect_agreement(protocol, ventricle.built);
-  EXPECT_EQ(ventricle.cavity, nullptr);
+  EXPECT_TRUE(ventricle.cavities.empty());
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ std::vector<double> computed(const Protocol& protocol, const std::shared_ptr<con
   std::vector<double> out;
   for (const auto* states : {&path.steps, &path.outputs})
     for (const HeartState& s : *states) {
-      out.insert(out.end(), {s.time_ms, s.volume_mm3, s.pressure_kPa, s.capacitor_pressure_kPa});
+      out.insert(out.end(), {s.time_ms, s.volumes_mm3[0], s.pressures_kPa[0], s.vessels_kPa.sum()});
       out.insert(out.end(), s.c.begin(), s.c.end());
     }
   const BeatResult result = describe_path(ventricle, segment_nodes(*anatomy, protocol), protocol, path);

@@ -30,8 +30,8 @@ struct Range {
 Range volumes_mL(const HeartRun& run) {
   Range out;
   for (const HeartState& s : run.path.steps) {
-    out.low = std::min(out.low, s.volume_mm3 / mm3_per_mL);
-    out.high = std::max(out.high, s.volume_mm3 / mm3_per_mL);
+    out.low = std::min(out.low, s.volumes_mm3[0] / mm3_per_mL);
+    out.high = std::max(out.high, s.volumes_mm3[0] / mm3_per_mL);
   }
   return out;
 }
@@ -41,10 +41,10 @@ TEST(KeyStates, OfAHealthyBeatAreWhereItsValvesClose) {
   const VentricleSummary& lv = run.result.ventricles[0];
   EXPECT_EQ(run.key.es_is, "closing of the outlet valve");
   // Both lie between time steps; the volumes there are the extremes, since nothing leaks.
-  EXPECT_NEAR(run.key.ed.volume_mm3 / mm3_per_mL, lv.edv_mL, 0.05);
-  EXPECT_NEAR(run.key.es.volume_mm3 / mm3_per_mL, lv.esv_mL, 0.05);
-  EXPECT_NEAR(run.key.es.pressure_kPa, run.key.es.capacitor_pressure_kPa, 0.05 * kPa_per_mmHg);
-  EXPECT_NEAR(run.ventricle.cavity_volume(run.key.ed.c), run.key.ed.volume_mm3, 0.05 * mm3_per_mL);
+  EXPECT_NEAR(run.key.ed.volumes_mm3[0] / mm3_per_mL, lv.edv_mL, 0.05);
+  EXPECT_NEAR(run.key.es.volumes_mm3[0] / mm3_per_mL, lv.esv_mL, 0.05);
+  EXPECT_NEAR(run.key.es.pressures_kPa[0], run.key.es.vessels_kPa[0], 0.05 * kPa_per_mmHg);
+  EXPECT_NEAR(run.ventricle.cavity_volume(run.key.ed.c), run.key.ed.volumes_mm3[0], 0.05 * mm3_per_mL);
   // Filled at rest: at the pressure of the atrium, when the muscle begins to contract at 100 ms.
   EXPECT_NEAR(lv.edp_mmHg, 10, 0.1);
   EXPECT_NEAR(lv.ed_time_ms, 100, 5);
@@ -104,8 +104,8 @@ TEST(KeyStates, OfALeakingAorticValveAreTheExtremesAndTheLeakIsTold) {
   for (std::size_t k = 0; k < lv.samples.size(); ++k) {
     const HeartState& s = run.path.steps[k];
     if (lv.samples[k].phase == Phase::filling || lv.samples[k].phase == Phase::ejection) continue;
-    EXPECT_GT(s.pressure_kPa, loop.filling_pressure_kPa) << s.time_ms;
-    EXPECT_LT(s.pressure_kPa, s.capacitor_pressure_kPa) << s.time_ms;
+    EXPECT_GT(s.pressures_kPa[0], loop.filling_pressure_kPa) << s.time_ms;
+    EXPECT_LT(s.pressures_kPa[0], s.vessels_kPa[0]) << s.time_ms;
     EXPECT_GE(s.time_ms, lv.ed_time_ms);
   }
   EXPECT_GT(lv.isovolumetric_relaxation_change_mL, 2);

@@ -8,6 +8,7 @@
 #include <cardiac/anatomy/structured_ellipsoid.hpp>
 #include <cardiac/core/units.hpp>
 #include <cardiac/run/build_ventricle.hpp>
+#include <polyaffine/solve/load_stepping.hpp>
 
 namespace cardiac {
 namespace {
@@ -73,8 +74,8 @@ constexpr double kPressure = 8, kClock = 300;  // kPa; ms, in the middle of cont
 
 Vector equilibrium(const Ventricle& v) {
   Vector c = Vector::Zero(v.num_coefficients());
-  const auto problem = loaded_ventricle(v, {kPressure, v.contraction->tension(kClock)});
-  EXPECT_TRUE(polyaffine::load_stepping(problem, *v.make_system(), c).converged());
+  const auto system = loaded_ventricle(v, {Vector{{kPressure}}, v.contraction->tension(kClock)});
+  EXPECT_TRUE(polyaffine::load_stepping(system, *system.make_linear(), c).converged());
   return c;
 }
 
@@ -88,10 +89,10 @@ TEST_F(TrainedRules, KeepFewPointsWithPositiveWeightsAndTheVolume) {
   const auto& few = ventricle.discretisation.points;
   const auto& all = ventricle.all_points->discretisation.points;
   EXPECT_LT(few.tet.size(), 0.8 * static_cast<double>(all.tet.size()));
-  EXPECT_LT(2 * ventricle.discretisation.cavity_points.tet.size(),
-            ventricle.all_points->discretisation.cavity_points.tet.size());
+  EXPECT_LT(2 * ventricle.discretisation.cavities[0].points.tet.size(),
+            ventricle.all_points->discretisation.cavities[0].points.tet.size());
   EXPECT_GT(few.weights.minCoeff(), 0);
-  EXPECT_GT(ventricle.discretisation.cavity_points.weights.minCoeff(), 0);
+  EXPECT_GT(ventricle.discretisation.cavities[0].points.weights.minCoeff(), 0);
   EXPECT_NEAR(few.weights.sum() / all.weights.sum(), 1, 0.005);
   const Vector rest = Vector::Zero(ventricle.num_coefficients());
   EXPECT_NEAR(ventricle.cavity_volume(rest) / ventricle.all_points->cavity_volume(rest), 1, 0.005);
@@ -106,7 +107,7 @@ TEST_F(TrainedRules, AnUntrainedScarComesOutAsWithAllPoints) {
   EXPECT_GT(difference, 0);
   EXPECT_NEAR(scar.cavity_volume(few) / scar.all_points->cavity_volume(all), 1, 0.01);
   // The check sees how far the rule is off, to first order.
-  const double told = rule_error(scar, {0, few, 0, kPressure, 0}, kClock);
+  const double told = rule_error(scar, {0, few, {}, Vector{{kPressure}}}, kClock);
   EXPECT_NEAR(told / difference, 1, 0.3);
   EXPECT_LT(told, kTrustedRuleError);
 }
@@ -117,7 +118,7 @@ TEST_F(TrainedRules, TheCheckFindsARuleThatIsOff) {
   Ventricle off =
       assemble_ventricle(anatomy, protocol, with_rule(ventricle.all_points->discretisation, rule));
   off.all_points = ventricle.all_points;
-  EXPECT_GT(rule_error(off, {0, equilibrium(off), 0, kPressure, 0}, kClock), kTrustedRuleError);
+  EXPECT_GT(rule_error(off, {0, equilibrium(off), {}, Vector{{kPressure}}}, kClock), kTrustedRuleError);
 }
 
 TEST_F(TrainedRules, TheCacheKeepsEveryBitAndKnowsWhatTrainingReads) {

@@ -2,11 +2,12 @@
 
 #include <memory>
 
+#include <polyaffine/linear/projection.hpp>
 #include <polyaffine/material/linear_elastic.hpp>
 #include <polyaffine/material/springs.hpp>
 #include <polyaffine/quadrature/nearest_weights.hpp>
-#include <polyaffine/solve/equilibrium.hpp>
-#include <polyaffine/solve/projection.hpp>
+#include <polyaffine/solve/newton.hpp>
+#include <polyaffine/system/field_term.hpp>
 
 #include "support/random_regions.hpp"
 
@@ -22,7 +23,7 @@ struct Patch {
   testing::RandomRegions regions;
   FieldTable table;
   WeightConditions constraint;
-  EquilibriumProblem problem;
+  System problem;
   DisplacementMap map;
   Points exact;
 
@@ -31,14 +32,13 @@ struct Patch {
         table(deformation_table(*regions.basis, regions.points())),
         constraint(integration_constraint(table, boundary_integrals(*regions.basis, regions.boundary()))),
         map(*regions.basis, regions.boundary().tet, regions.boundary().barycentric) {
-    problem.terms.emplace_back();
+    problem = field_system(table.num_unknowns(), {nullptr});  // for the body, whose weights vary
     for (const int side : {-1, 1}) {
       const int label = side < 0 ? testing::kZLow : testing::kZHigh;
       const SurfacePoints face = regions.geometry->surface_points(regions.mesh, {label}, 4);
-      problem.terms.push_back({std::make_shared<FieldEnergy>(
+      problem.terms.push_back(load(std::make_shared<FieldEnergy>(
           displacement_table(*regions.basis, face),
-          Laws{std::make_shared<DeadTraction>(Vec3(0, 0, -side * kPressure))})});
-      problem.terms.back().wall = false;
+          Laws{std::make_shared<DeadTraction>(Vec3(0, 0, -side * kPressure))})));
     }
     exact = Vec3(kPoisson, kPoisson, -1).asDiagonal() * regions.boundary().X * (kPressure / kYoung);
     support();
@@ -63,11 +63,10 @@ struct Patch {
   double error(const Vector& weights) {
     FieldTable weighted = table;
     weighted.weights = weights;
-    problem.terms[0].energy = std::make_shared<FieldEnergy>(
-        weighted, Laws{std::make_shared<LinearElastic>(Elasticity{kYoung, kPoisson})});
+    problem.terms[0] = solid(std::make_shared<FieldEnergy>(
+        weighted, Laws{std::make_shared<LinearElastic>(Elasticity{kYoung, kPoisson})}));
     Vector c = Vector::Zero(table.num_unknowns());
-    EXPECT_TRUE(
-        newton(problem, 1, *projected_system(problem.projection), c, {.tolerance = 1e-12}).converged());
+    EXPECT_TRUE(newton(problem, 1, *problem.make_linear(), c, {.tolerance = 1e-12}).converged());
     return (map.apply(c) - exact).cwiseAbs().maxCoeff() * kYoung / kPressure;
   }
 };

@@ -5,7 +5,9 @@
 #include <polyaffine/kinematics/lagrange.hpp>
 #include <polyaffine/material/neo_hookean.hpp>
 #include <polyaffine/material/springs.hpp>
-#include <polyaffine/solve/equilibrium.hpp>
+#include <polyaffine/solve/load_stepping.hpp>
+#include <polyaffine/system/field_term.hpp>
+#include <polyaffine/system/sparse_field.hpp>
 
 #include "support/labelled_box.hpp"
 #include "support/matrix_system.hpp"
@@ -29,14 +31,15 @@ struct Bar {
   std::shared_ptr<FieldEnergy> wall(const PressureSpace& space) const {
     return std::make_shared<FieldEnergy>(table, Laws{std::make_shared<NeoHookean>(Lame{0, kMu})}, space);
   }
-  EquilibriumProblem bending(const std::shared_ptr<FieldEnergy>& wall) const {
-    PotentialTerm pull{std::make_shared<FieldEnergy>(
+  std::shared_ptr<const FieldEnergy> traction() const {
+    return std::make_shared<FieldEnergy>(
         displacement_table(basis, basis.surface_points(mesh, {testing::kXHigh}, 2)),
-        Laws{std::make_shared<DeadTraction>(Vec3(0, 0, 0.4))})};
-    pull.scale = [](double load) { return load; };
-    pull.wall = false;
-    EquilibriumProblem problem;
-    problem.terms = {{wall}, pull};
+        Laws{std::make_shared<DeadTraction>(Vec3(0, 0, 0.4))});
+  }
+  System bending(const std::shared_ptr<FieldEnergy>& wall) const {
+    System problem =
+        field_system(table.num_unknowns(), {solid(wall), load(traction(), [](double t) { return t; })});
+    problem.linear = sparse_field;
     problem.fixed.assign(table.num_unknowns(), 0);
     for (const int node : basis.surface_nodes(mesh, {testing::kXLow}))
       for (int k = 0; k < 3; ++k) problem.fixed[3 * node + k] = 1;
@@ -96,14 +99,13 @@ TEST(MixedNewton, FindsTheEquilibriumOfTheCondensedForm) {
     for (Eigen::Index q = 0; q < bar.table.num_points(); ++q) half.push_back(static_cast<int>(q) % 2);
     const auto wall =
         bar.wall(regions ? region_pressure(bar.table, half, 2, 100) : block_pressure(bar.table, 100));
-    const EquilibriumProblem problem = bar.bending(wall);
-    const auto system = regions ? dense_system(bar.table.num_unknowns(), problem.fixed)
-                                : sparse_system({&bar.table}, problem.fixed);
+    System problem = bar.bending(wall);
+    if (regions) problem.linear = {};  // dense
     Vector c = Vector::Zero(bar.table.num_unknowns());
-    ASSERT_TRUE(load_stepping(problem, *system, c).converged());
+    ASSERT_TRUE(load_stepping(problem, *problem.make_linear(), c).converged());
     EXPECT_GT(c.cwiseAbs().maxCoeff(), 0.3);
     const Vector wall_force = wall->evaluate({c}).gradient;
-    Vector r = wall_force + problem.terms[1].energy->evaluate({c}).gradient;
+    Vector r = wall_force + bar.traction()->evaluate({c}).gradient;
     for (Eigen::Index i = 0; i < r.size(); ++i)
       if (problem.fixed[static_cast<std::size_t>(i)]) r[i] = 0;
     EXPECT_LT(r.norm(), 1e-5 * wall_force.norm());
@@ -112,13 +114,12 @@ TEST(MixedNewton, FindsTheEquilibriumOfTheCondensedForm) {
 
 TEST(MixedNewton, FormerTangentsLeadToTheSameEquilibriumWithFewerFactorisations) {
   const Bar bar;
-  const EquilibriumProblem problem =
-      bar.bending(bar.wall(1e5, true));  // a chord that mixed up D would diverge
+  const System problem = bar.bending(bar.wall(1e5, true));  // a chord that mixed up D would diverge
   const auto solve = [&](double contraction, Vector& c) {
     c = Vector::Zero(bar.table.num_unknowns());
     LoadOptions options;
     options.newton.contraction = contraction;
-    return load_stepping(problem, *sparse_system({&bar.table}, problem.fixed), c, options);
+    return load_stepping(problem, *problem.make_linear(), c, options);
   };
   Vector exact, chords, strict;
   const LoadReport each = solve(0, exact), few = solve(0.25, chords), slow = solve(0.01, strict);
@@ -138,9 +139,9 @@ TEST(MixedNewton, AStiffVolumeCostsNoMoreIterationsThanASoftOne) {
   const Bar bar;
   std::vector<int> iterations;
   for (const double kappa : {10.0, 1e3, 1e5, 1e7}) {
-    const EquilibriumProblem problem = bar.bending(bar.wall(kappa, false));
+    const System problem = bar.bending(bar.wall(kappa, false));
     Vector c = Vector::Zero(bar.table.num_unknowns());
-    const LoadReport report = load_stepping(problem, *sparse_system({&bar.table}, problem.fixed), c);
+    const LoadReport report = load_stepping(problem, *problem.make_linear(), c);
     ASSERT_TRUE(report.converged()) << kappa;
     iterations.push_back(report.iterations);
   }
@@ -152,9 +153,9 @@ TEST(MixedNewton, AnIncompressibleSpaceKeepsEveryMeanDilatationWhateverThePenalt
   Vector first;
   for (const double penalty : {1e4, 1e6}) {
     const auto wall = bar.wall(penalty, true);
-    const EquilibriumProblem problem = bar.bending(wall);
+    const System problem = bar.bending(wall);
     Vector c = Vector::Zero(bar.table.num_unknowns());
-    ASSERT_TRUE(load_stepping(problem, *sparse_system({&bar.table}, problem.fixed), c).converged());
+    ASSERT_TRUE(load_stepping(problem, *problem.make_linear(), c).converged());
     EXPECT_LT(wall->pressure(c).cwiseAbs().maxCoeff() / penalty, 1e-7);
     if (first.size() == 0) first = c;
     EXPECT_LT((c - first).norm(), 1e-5 * c.norm());
@@ -166,9 +167,9 @@ TEST(MixedNewton, HasTheSameBitsOnOneThreadAndOnTwo) {
   std::vector<Vector> results;
   for (const std::size_t threads : {1, 2}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-    const EquilibriumProblem problem = bar.bending(bar.wall(1e3, true));
+    const System problem = bar.bending(bar.wall(1e3, true));
     Vector c = Vector::Zero(bar.table.num_unknowns());
-    ASSERT_TRUE(load_stepping(problem, *sparse_system({&bar.table}, problem.fixed), c).converged());
+    ASSERT_TRUE(load_stepping(problem, *problem.make_linear(), c).converged());
     results.push_back(c);
   }
   EXPECT_TRUE(results[0] == results[1]);

@@ -5,7 +5,8 @@
 #include <polyaffine/kinematics/lagrange.hpp>
 #include <polyaffine/material/neo_hookean.hpp>
 #include <polyaffine/material/springs.hpp>
-#include <polyaffine/solve/equilibrium.hpp>
+#include <polyaffine/solve/newton.hpp>
+#include <polyaffine/system/field_term.hpp>
 
 #include "support/labelled_box.hpp"
 
@@ -29,9 +30,7 @@ double deflection(double poisson, int order, int cells) {
   const auto load = std::make_shared<FieldEnergy>(
       displacement_table(basis, basis.surface_points(mesh, {testing::kXHigh}, 2)),
       Laws{std::make_shared<DeadTraction>(Vec3(0, 0, kTraction))});
-  EquilibriumProblem problem;
-  problem.terms = {{wall}, {load}};
-  problem.terms[1].wall = false;
+  System problem = field_system(3 * basis.num_functions(), {solid(wall), polyaffine::load(load)});
   problem.fixed.assign(3 * basis.num_functions(), 0);
   for (const int node : basis.surface_nodes(mesh, {testing::kXLow}))
     for (int k = 0; k < 3; ++k) problem.fixed[3 * node + k] = 1;

@@ -2,7 +2,9 @@
 
 #include <polyaffine/kinematics/lagrange.hpp>
 #include <polyaffine/material/linear_elastic.hpp>
-#include <polyaffine/solve/equilibrium.hpp>
+#include <polyaffine/solve/newton.hpp>
+#include <polyaffine/system/field_term.hpp>
+#include <polyaffine/system/sparse_field.hpp>
 
 #include "support/convergence.hpp"
 #include "support/labelled_box.hpp"
@@ -16,7 +18,8 @@ const Elasticity kElasticity{10, 0.3};  // kPa
 class BodyForce : public Law {
  public:
   explicit BodyForce(Points b) : b_(std::move(b)) {}
-  void respond(PackPoints points, const Mat3Pack& M, PointState, bool, PackResponse& r) const override {
+  void respond(PackPoints points, const PackMotion& at, bool, PackResponse& r) const override {
+    const Mat3Pack& M = at.F;
     for (int i = 0; i < 3; ++i) {
       const Pack b = gather(b_.data() + 3 * static_cast<std::ptrdiff_t>(points.point) + i, 3, points.lanes);
       r.W -= b * M.m[i];
@@ -55,9 +58,8 @@ double solution_error(int order, int cells) {
                                                   Laws{std::make_shared<LinearElastic>(kElasticity)});
   const auto load = std::make_shared<FieldEnergy>(displacement_table(basis, places),
                                                   Laws{std::make_shared<BodyForce>(force)});
-  EquilibriumProblem problem;
-  problem.terms = {{wall}, {load}};
-  problem.terms[1].wall = false;
+  System problem = field_system(3 * basis.num_functions(), {solid(wall), polyaffine::load(load)});
+  problem.linear = sparse_field;
   problem.fixed.assign(3 * basis.num_functions(), 0);
   problem.prescribed = Vector::Zero(3 * basis.num_functions());
   for (const int node : basis.surface_nodes(mesh, {1, 2, 3, 4, 5, 6})) {
@@ -65,8 +67,7 @@ double solution_error(int order, int cells) {
     for (int k = 0; k < 3; ++k) problem.fixed[3 * node + k] = 1;
   }
   Vector c = Vector::Zero(3 * basis.num_functions());
-  const auto system = sparse_system({&wall->table()}, problem.fixed);
-  const NewtonReport report = newton(problem, 1, *system, c);
+  const NewtonReport report = newton(problem, 1, *problem.make_linear(), c);
   EXPECT_TRUE(report.converged());
   EXPECT_EQ(report.iterations, 1);  // the problem is linear
   return testing::l2_error(basis, c.reshaped(3, basis.num_functions()), exact);

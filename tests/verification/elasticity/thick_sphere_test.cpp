@@ -9,7 +9,9 @@
 #include <polyaffine/material/signed_volume.hpp>
 #include <polyaffine/material/springs.hpp>
 #include <polyaffine/rules/gauss.hpp>
-#include <polyaffine/solve/equilibrium.hpp>
+#include <polyaffine/solve/load_stepping.hpp>
+#include <polyaffine/system/field_term.hpp>
+#include <polyaffine/system/support.hpp>
 
 #include "support/labelled_box.hpp"
 #include "support/sphere_midpoints.hpp"
@@ -54,10 +56,9 @@ Solution inflate(int cells) {
   const LagrangeBasis basis(mesh, 2, testing::sphere_midpoints(mesh));
   const FieldTable table = deformation_table(basis, basis.wall_points(4));
   using Laws = std::vector<std::shared_ptr<const Law>>;
-  EquilibriumProblem problem;
   const auto wall = std::make_shared<FieldEnergy>(table, Laws{std::make_shared<IsochoricNeoHookean>(kMu)},
                                                   block_pressure(table, kKappa));
-  problem.terms.push_back({wall});
+  System problem = field_system(table.num_unknowns(), {solid(wall)});
 
   SurfacePoints inside = basis.surface_points(mesh, {testing::kXLow}, 4);
   inside.X_xi.swap(inside.X_eta);  // out of the cavity
@@ -66,18 +67,14 @@ Solution inflate(int cells) {
   // The 24th of a sphere of radius A, but for the faces that quadratic elements cannot follow.
   EXPECT_NEAR(cavity->evaluate({Vector::Zero(table.num_unknowns())}).value, 4 * kPi / 72, 2e-3);
   const double p = pressure();
-  PotentialTerm push{cavity, [p](double load) { return -load * p; }};
-  push.wall = false;
-  problem.terms.push_back(push);
+  problem.terms.push_back(load(cavity, [p](double t) { return -t * p; }));
 
   for (const int side : {testing::kYHigh, testing::kZHigh}) {
     const SurfacePoints points = basis.surface_points(mesh, {side}, 4);
     const Vec3 normal = side == testing::kYHigh ? Vec3(-1, 1, 0).normalized() : Vec3(-1, 0, 1).normalized();
-    PotentialTerm spring{std::make_shared<FieldEnergy>(
+    problem.terms.push_back(std::make_shared<Support>(
         displacement_table(basis, points),
-        Laws{std::make_shared<SurfaceSpring>(1e6, normal.replicate(1, points.X.cols()))})};
-    spring.wall = false;
-    problem.terms.push_back(spring);
+        SupportParameters{.stiffness_kPa_per_mm = 1e6, .normals = normal.replicate(1, points.X.cols())}));
   }
   problem.fixed.assign(table.num_unknowns(), 0);
   for (const int node : basis.surface_nodes(mesh, {testing::kYLow})) problem.fixed[3 * node + 1] = 1;

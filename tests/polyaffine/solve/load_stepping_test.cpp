@@ -1,4 +1,4 @@
-#include "polyaffine/solve/equilibrium.hpp"
+#include "polyaffine/solve/load_stepping.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,8 @@
 #include <polyaffine/kinematics/lagrange.hpp>
 #include <polyaffine/material/neo_hookean.hpp>
 #include <polyaffine/material/springs.hpp>
+#include <polyaffine/system/field_term.hpp>
+#include <polyaffine/system/sparse_field.hpp>
 
 #include "support/labelled_box.hpp"
 
@@ -22,7 +24,8 @@ struct Bar {
     wall = std::make_shared<FieldEnergy>(
         deformation_table(basis, basis.wall_points(order == 1 ? 1 : 3)),
         std::vector<std::shared_ptr<const Law>>{std::make_shared<NeoHookean>(Lame{kLambda, kMu})});
-    problem.terms.push_back({wall});
+    problem = field_system(unknowns(), {solid(wall)});
+    problem.linear = sparse_field;
     problem.fixed.assign(unknowns(), 0);
     problem.prescribed = Vector::Zero(unknowns());
   }
@@ -37,19 +40,18 @@ struct Bar {
     for (int k = 0; k < 3; ++k) hold(face, k);
   }
   void pull(int face, const Vec3& traction) {
-    PotentialTerm term{std::make_shared<FieldEnergy>(
-        displacement_table(basis, basis.surface_points(mesh, {face}, 2)),
-        std::vector<std::shared_ptr<const Law>>{std::make_shared<DeadTraction>(traction)})};
-    term.scale = [](double load) { return load; };
-    term.wall = false;
-    problem.terms.push_back(term);
+    problem.terms.push_back(
+        load(std::make_shared<FieldEnergy>(
+                 displacement_table(basis, basis.surface_points(mesh, {face}, 2)),
+                 std::vector<std::shared_ptr<const Law>>{std::make_shared<DeadTraction>(traction)}),
+             [](double t) { return t; }));
   }
-  std::unique_ptr<LinearSystem> system() const { return sparse_system({&wall->table()}, problem.fixed); }
+  std::unique_ptr<LinearSystem> system() const { return problem.make_linear(); }
 
   TetMesh mesh = testing::labelled_box(Vec3::Zero(), Vec3(kLength, 1, 1), {3, 2, 2}, 0.2);
   LagrangeBasis basis;
   std::shared_ptr<FieldEnergy> wall;
-  EquilibriumProblem problem;
+  System problem;
 };
 
 // Lateral stretch l with no lateral stress, μ (l − 1/l) + λ ln(s l²)/l = 0, and the nominal stress along the

@@ -1,4 +1,4 @@
-#include "polyaffine/solve/projection.hpp"
+#include "polyaffine/linear/projection.hpp"
 
 #include <Eigen/QR>
 #include <cmath>

@@ -5,10 +5,12 @@
 
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/kinematics/lagrange.hpp>
+#include <polyaffine/linear/projection.hpp>
 #include <polyaffine/material/neo_hookean.hpp>
 #include <polyaffine/material/springs.hpp>
-#include <polyaffine/solve/equilibrium.hpp>
-#include <polyaffine/solve/projection.hpp>
+#include <polyaffine/solve/load_stepping.hpp>
+#include <polyaffine/system/field_term.hpp>
+#include <polyaffine/system/support.hpp>
 #include "polyaffine/geometry/box_mesh.hpp"
 
 namespace polyaffine {
@@ -81,8 +83,7 @@ struct Cube {
 
   // Held and moved by fixing the unknowns of nodes themselves: the discrete solution to compare with.
   Vector exact() const {
-    EquilibriumProblem problem;
-    problem.terms.push_back({wall});
+    System problem = field_system(3 * basis.num_functions(), {solid(wall)});
     problem.fixed.assign(3 * basis.num_functions(), 0);
     problem.prescribed = Vector::Zero(3 * basis.num_functions());
     for (const int label : {1, 2})
@@ -91,14 +92,14 @@ struct Cube {
           problem.fixed[3 * n + k] = 1;
           problem.prescribed[3 * n + k] = label == 2 ? top[k] : 0;
         }
-    return solve(problem, *dense_system(3 * basis.num_functions(), problem.fixed));
+    return solve(problem);
   }
 
-  Vector solve(const EquilibriumProblem& problem, LinearSystem& system) const {
+  Vector solve(const System& problem) const {
     Vector c = Vector::Zero(3 * basis.num_functions());
     LoadOptions options;
     options.newton.tolerance = 1e-11;
-    EXPECT_TRUE(load_stepping(problem, system, c, options).converged());
+    EXPECT_TRUE(load_stepping(problem, *problem.make_linear(), c, options).converged());
     return c;
   }
 };
@@ -124,15 +125,14 @@ TEST(Projection, PrescribesTheDisplacementOfAFace) {
     barycentric.col(q) = at[q];
     prescribed.col(q) = u[q];
   }
-  EquilibriumProblem problem;
-  problem.terms.push_back({cube.wall});
+  System problem = field_system(3 * cube.basis.num_functions(), {solid(cube.wall)});
   problem.projection = std::make_shared<Projection>(
       project(displacement_constraints(cube.basis, tet, barycentric, prescribed)));
   EXPECT_EQ(problem.projection->rank, 2 * 3 * 9);  // the nodes of two faces
   EXPECT_GT(3 * n, problem.projection->rank);
 
   const Vector exact = cube.exact();
-  const Vector c = cube.solve(problem, *projected_system(problem.projection));
+  const Vector c = cube.solve(problem);
   EXPECT_GT(exact.norm(), 0.5);
   // Newton's tolerance on the forces times the condition of the stiffness.
   EXPECT_LT((c - exact).norm(), 1e-9 * exact.norm());
@@ -141,28 +141,23 @@ TEST(Projection, PrescribesTheDisplacementOfAFace) {
 }
 
 // ½ k |u − u₀|² = ½ k |u|² − k u₀·u + const: a spring and a dead traction.
-TEST(SurfaceSpring, ConvergesToThePrescribedDisplacementAsOneOverK) {
+TEST(Support, ConvergesToThePrescribedDisplacementAsOneOverK) {
   const Cube cube;
   const Vector exact = cube.exact();
   std::vector<double> error;
   for (const double k : {1e4, 1e5, 1e6}) {
-    EquilibriumProblem problem;
-    problem.terms.push_back({cube.wall});
+    System problem = field_system(3 * cube.basis.num_functions(), {solid(cube.wall)});
     for (const int label : {1, 2}) {
       const FieldTable table =
           displacement_table(cube.basis, cube.basis.surface_points(cube.mesh, {label}, 2));
-      PotentialTerm spring{std::make_shared<FieldEnergy>(
-          table, std::vector<std::shared_ptr<const Law>>{std::make_shared<SurfaceSpring>(k)})};
-      spring.wall = false;
-      problem.terms.push_back(spring);
+      problem.terms.push_back(std::make_shared<Support>(table, SupportParameters{.stiffness_kPa_per_mm = k}));
       if (label == 1) continue;
-      PotentialTerm pull{std::make_shared<FieldEnergy>(
-          table, std::vector<std::shared_ptr<const Law>>{std::make_shared<DeadTraction>(k * cube.top)})};
-      pull.wall = false;
-      pull.scale = [](double load) { return load; };
-      problem.terms.push_back(pull);
+      problem.terms.push_back(load(
+          std::make_shared<FieldEnergy>(
+              table, std::vector<std::shared_ptr<const Law>>{std::make_shared<DeadTraction>(k * cube.top)}),
+          [](double t) { return t; }));
     }
-    error.push_back((cube.solve(problem, *dense_system(3 * cube.basis.num_functions())) - exact).norm());
+    error.push_back((cube.solve(problem) - exact).norm());
   }
   // First order in 1/k; the second order term takes .05 and .005 from the ratios at these stiffnesses.
   EXPECT_NEAR(error[0] / error[1], 10, 0.1);

@@ -1,0 +1,11 @@
+#include "polyaffine/system/sparse_field.hpp"
+
+namespace polyaffine {
+
+std::unique_ptr<LinearSystem> sparse_field(const System& system) {
+  std::vector<const FieldTable*> tables;
+  for (const auto& term : system.terms) term->add_tables(tables);
+  return sparse_system(tables, system.fixed);
+}
+
+}  // namespace polyaffine

@@ -1,0 +1,24 @@
+#include "polyaffine/system/term.hpp"
+
+#include <stdexcept>
+
+namespace polyaffine {
+
+void Term::condense(const At&, double, const Vector&, Eigen::Ref<Vector>) const {}
+void Term::recover(const At&, double, const Vector&, Vector&) const {}
+
+void Term::add_parameter_derivative(const std::string& parameter, const At&, Vector&) const {
+  throw std::invalid_argument("term: no parameter " + parameter);
+}
+
+std::shared_ptr<const Term> Term::mixed(StateLayout&) const {
+  return nullptr;
+}
+void Term::start(Vector&) const {}
+
+std::optional<double> Term::strain(const Vector&) const {
+  return {};
+}
+void Term::add_tables(std::vector<const FieldTable*>&) const {}
+
+}  // namespace polyaffine
