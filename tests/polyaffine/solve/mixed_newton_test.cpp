@@ -4,7 +4,6 @@
 #include <polyaffine/check/derivative_check.hpp>
 #include <polyaffine/core/threads.hpp>
 #include <polyaffine/kinematics/lagrange.hpp>
-#include <polyaffine/linear/sparse_system.hpp>
 #include <polyaffine/material/neo_hookean.hpp>
 #include <polyaffine/material/springs.hpp>
 #include <polyaffine/solve/load_stepping.hpp>
