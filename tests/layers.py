@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Holds the includes of the libraries to the order of their folders.
+"""Holds the includes of the libraries to the order of their folders, and the lists of CMake to the files.
 
     python3 tests/layers.py [ROOT]
 
 A folder includes only folders on lines before its own, so that no folders include each other in a circle. Prints
-every include that goes up or sideways and every circle; status 1 where there is one.
+every include that goes up or sideways, every circle, and every file that no CMakeLists.txt names and that therefore
+nobody compiles, tests or installs; status 1 where there is one.
 """
 
 import re
@@ -99,10 +100,30 @@ def check(root, library):
     return wrong
 
 
+def unlisted(root):
+    """Sources and headers whose folder and name stand in no list of sources."""
+    lists = {
+        "apps": r"()(cardiac/\w+)\.cpp",
+        "libcardiac": r"add_sources\(\w+ ([\w/]+) ([^)]*)\)",
+        "libpolyaffine": r"add_sources\(\w+ ([\w/]+) ([^)]*)\)",
+        "tests": r"add_(?:test_folder|sparse_tests)\((\w+ \w+) ([^)]*)\)",
+    }
+    for part, pattern in lists.items():
+        listed = set()
+        for folder, names in re.findall(pattern, (root / part / "CMakeLists.txt").read_text()):
+            for name in names.split():
+                listed.add(f"{folder.replace(' ', '/')}/{name}".lstrip("/"))
+        kinds = {"apps": "*.cpp", "tests": "*_test.cpp"}
+        for file in sorted((root / part).rglob(kinds.get(part, "*.[ch]pp"))):
+            name = file.relative_to(root / part).with_suffix("").as_posix().removesuffix("_test" if part == "tests" else "")
+            if name not in listed:
+                yield f"{file.relative_to(root)}: is not in {part}/CMakeLists.txt"
+
+
 def main():
     root = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).resolve().parent.parent)
-    wrong = [text for library in ORDER for text in check(root, library)]
-    print("\n".join(wrong) if wrong else "The folders are in order.")
+    wrong = [text for library in ORDER for text in check(root, library)] + list(unlisted(root))
+    print("\n".join(wrong) if wrong else "The folders are in order, and the lists complete.")
     return 1 if wrong else 0
 
 

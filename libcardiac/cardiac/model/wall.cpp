@@ -10,6 +10,7 @@
 #include <cardiac/tissue/guccione.hpp>
 #include <cardiac/tissue/holzapfel_ogden.hpp>
 #include <polyaffine/core/error.hpp>
+#include <polyaffine/core/threads.hpp>
 #include <polyaffine/material/mooney_rivlin.hpp>
 #include <polyaffine/material/neo_hookean.hpp>
 #include <polyaffine/material/saint_venant_kirchhoff.hpp>
@@ -109,6 +110,7 @@ RegionFactors region_factors(const Anatomy& anatomy, const Protocol& protocol,
 std::shared_ptr<const polyaffine::FieldEnergy> build_wall(const Anatomy& anatomy, const Protocol& protocol,
                                                           const Discretisation& discretisation,
                                                           const RegionFactors& factors, BuildCount& built) {
+  polyaffine::use_threads();
   auto table = polyaffine::deformation_table(*discretisation.basis, discretisation.points);
   FibreAxes fibres;
   if (protocol.fibres) {

@@ -14,6 +14,7 @@
 #include <polyaffine/kinematics/gmls_basis.hpp>
 #include <polyaffine/kinematics/resultant_table.hpp>
 #include <polyaffine/linear/projection.hpp>
+#include <polyaffine/linear/sparse_system.hpp>
 #include <polyaffine/material/linear_elastic.hpp>
 #include <polyaffine/material/springs.hpp>
 #include <polyaffine/quadrature/consistent_weights.hpp>

@@ -12,6 +12,7 @@
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/core/single_thread.hpp>
 #include <polyaffine/kinematics/element_locator.hpp>
+#include <polyaffine/linear/sparse_system.hpp>
 #include <polyaffine/material/follower_pressure.hpp>
 #include <polyaffine/material/signed_volume.hpp>
 #include <polyaffine/material/volumetric.hpp>

@@ -5,7 +5,7 @@
 namespace polyaffine {
 
 /// While it lives, parallel loops (TBB), OpenMP and OpenBLAS use one thread: for times that can be compared.
-/// Not to be made in several threads at once.
+/// TBB keeps the lowest limit that lives, so that several may.
 class SingleThread {
  public:
   SingleThread();

@@ -21,3 +21,10 @@ using Triangles = Eigen::Matrix3Xi;
 inline constexpr double kPi = std::numbers::pi;
 
 }  // namespace polyaffine
+
+// Alignment of Eigen's types and of the memory they allocate would follow the processor flags of each
+// compilation. The targets of CMake define both; who compiles without CMake must, as -D or before the first
+// header of Eigen.
+#if EIGEN_MAX_ALIGN_BYTES != 32 || EIGEN_MAX_STATIC_ALIGN_BYTES != 32
+#error "polyaffine: compile with -DEIGEN_MAX_ALIGN_BYTES=32 -DEIGEN_MAX_STATIC_ALIGN_BYTES=32"
+#endif

@@ -35,7 +35,9 @@ class PackedBlock {
 
   int num_packs() const { return static_cast<int>(points_.size()); }
   PackPoints points(int pack) const { return points_[pack]; }
-  Pack weight(int pack) const { return load(weights_.data() + kLanes * static_cast<std::ptrdiff_t>(pack)); }
+  [[gnu::always_inline]] Pack weight(int pack) const {
+    return load(weights_.data() + kLanes * static_cast<std::ptrdiff_t>(pack));
+  }
   /// Function indices of all groups, in order; the local numbering.
   const std::vector<int>& functions() const { return functions_; }
   const std::vector<Group>& groups() const { return groups_; }

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include <polyaffine/core/types.hpp>
-#include <polyaffine/kinematics/field_table.hpp>
 
 namespace polyaffine {
 
@@ -32,11 +31,5 @@ class LinearSystem {
 
 /// Dense storage, Cholesky with LU with partial pivoting as the fallback where K is indefinite.
 std::unique_ptr<LinearSystem> dense_system(int num_unknowns, const std::vector<char>& fixed = {});
-
-/// Compressed columns with the pattern of the tables' blocks. CHOLMOD supernodal Cholesky, its symbolic
-/// analysis kept; UMFPACK where K is indefinite (Davis 2004; Chen et al. 2008), at several times the time and
-/// memory. With `definite_only` such a K counts as singular, so that a load path takes shorter steps instead.
-std::unique_ptr<LinearSystem> sparse_system(const std::vector<const FieldTable*>& tables,
-                                            const std::vector<char>& fixed = {}, bool definite_only = false);
 
 }  // namespace polyaffine

@@ -7,7 +7,7 @@
 
 #include <polyaffine/core/serial_blas.hpp>
 
-#include "polyaffine/linear/linear_system.hpp"
+#include "polyaffine/linear/sparse_system.hpp"
 
 namespace polyaffine {
 namespace {

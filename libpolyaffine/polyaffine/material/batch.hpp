@@ -53,7 +53,7 @@ inline void add(const PackResponse& part, bool tangent, PackResponse& sum) {
 }
 
 /// Multiplies energy, stress and, with `tangent`, the tangent by a factor per point.
-inline void scale(const Pack& factor, bool tangent, PackResponse& r) {
+[[gnu::always_inline]] inline void scale(const Pack& factor, bool tangent, PackResponse& r) {
   r.W *= factor;
   for (Pack& p : r.P) p *= factor;
   if (!tangent) return;

@@ -12,7 +12,7 @@ SymPack right_cauchy_green(const Mat3Pack& F) {
   return C;
 }
 
-IsochoricStrain isochoric_strain(const SymPack& C, const Pack& J) {
+IsochoricStrain isochoric_strain(const SymPack& C, const LoosePack& J) {
   IsochoricStrain s;
   const Pack root = cbrt(J);
   s.g = 1 / (root * root);
@@ -57,7 +57,8 @@ void make_isochoric(const IsochoricStrain& strain, bool tangent, LagrangianRespo
     }
 }
 
-void add_constant_stress(const Mat3Pack& F, const Pack& W, const SymPack& S, bool tangent, PackResponse& r) {
+void add_constant_stress(const Mat3Pack& F, const LoosePack& W, const SymPack& S, bool tangent,
+                         PackResponse& r) {
   r.W += W;
 #pragma GCC unroll 3
   for (int i = 0; i < 3; ++i)

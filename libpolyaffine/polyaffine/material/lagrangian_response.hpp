@@ -29,7 +29,7 @@ struct LagrangianResponse {
 SymPack right_cauchy_green(const Mat3Pack& F);
 
 /// A : B of two symmetric matrices.
-inline Pack contract(const SymPack& A, const SymPack& B) {
+[[gnu::always_inline]] inline Pack contract(const SymPack& A, const SymPack& B) {
   return A.v[0] * B.v[0] + A.v[1] * B.v[1] + A.v[2] * B.v[2] +
          2 * (A.v[3] * B.v[3] + A.v[4] * B.v[4] + A.v[5] * B.v[5]);
 }
@@ -40,7 +40,7 @@ struct IsochoricStrain {
   SymPack C_bar;
   SymPack C_inverse;
 };
-IsochoricStrain isochoric_strain(const SymPack& C, const Pack& J);
+IsochoricStrain isochoric_strain(const SymPack& C, const LoosePack& J);
 
 /// Turns a response to C̄ (W̄, S̄ = 2∂W̄/∂C̄, C̄C̄ = 2∂S̄/∂C̄) into the response of W(C) = W̄(J^(−2/3) C):
 ///   S  = J^(−2/3) S̄ − ⅓ (S̄:C̄) C⁻¹,
@@ -50,7 +50,8 @@ void make_isochoric(const IsochoricStrain& strain, bool tangent, LagrangianRespo
 
 /// Adds W, P = F S and the geometric part δ_ik S_JL of A: all there is for a stress that does not depend on
 /// F.
-void add_constant_stress(const Mat3Pack& F, const Pack& W, const SymPack& S, bool tangent, PackResponse& r);
+void add_constant_stress(const Mat3Pack& F, const LoosePack& W, const SymPack& S, bool tangent,
+                         PackResponse& r);
 
 /// Adds W, P = F S and A_iJkL = δ_ik S_JL + F_iM F_kN CC_MJNL.
 void add_lagrangian(const Mat3Pack& F, const LagrangianResponse& l, bool tangent, PackResponse& r);

@@ -6,16 +6,23 @@
 #include <cstdint>
 #include <cstring>
 
+// A function that returns a Pack by value would leave it in a register or in memory, as the flags of its
+// compilation say. Here all of them are always inlined, so that no such call exists; compilers warn all the
+// same, where they are used, so that the warning stays off behind this header.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
 namespace polyaffine {
 
-#ifdef __AVX__
 inline constexpr int kLanes = 4;
-#else
-inline constexpr int kLanes = 2;
-#endif
 
-/// The same number of `kLanes` points side by side in one SIMD register.
-using Pack = double __attribute__((vector_size(8 * kLanes)));
+/// The same number of `kLanes` points side by side: one AVX register, two SSE registers. Size and alignment
+/// (32 bytes) are the same whatever the processor flags, so that code compiled with other flags than the
+/// library's may hold packs and hand them over in structures; a function that is not always inlined must not
+/// return a bare Pack, and takes one as `const LoosePack&`.
+using Pack = double __attribute__((vector_size(8 * kLanes), aligned(8 * kLanes)));
+
+/// A pack as the result of an expression, which without AVX is aligned to 16 bytes only.
+using LoosePack = double __attribute__((vector_size(8 * kLanes), aligned(16)));
 
 /// `kLanes` 3×3 matrices, column-major like the arrays of a Law.
 struct Mat3Pack {
@@ -25,18 +32,18 @@ struct Mat3Pack {
 };
 
 /// kLanes neighbouring numbers in memory, at any address.
-inline Pack load(const double* data) {
+[[gnu::always_inline]] inline Pack load(const double* data) {
   Pack v;
   std::memcpy(&v, data, sizeof v);
   return v;
 }
-inline void store(double* data, const Pack& v) {
+[[gnu::always_inline]] inline void store(double* data, const Pack& v) {
   std::memcpy(data, &v, sizeof v);
 }
 
 /// Reads base[0], base[stride], … one per lane. Lanes from `lanes` on repeat the last valid one, so that the
 /// end of a batch computes on ordinary numbers.
-inline Pack gather(const double* base, std::ptrdiff_t stride, int lanes) {
+[[gnu::always_inline]] inline Pack gather(const double* base, std::ptrdiff_t stride, int lanes) {
   if (stride == 1 && lanes == kLanes) return load(base);
   Pack v;
   for (int lane = 0; lane < kLanes; ++lane) v[lane] = base[stride * (lane < lanes ? lane : lanes - 1)];
@@ -51,7 +58,8 @@ inline Mat3Pack gather_matrix(const double* base, int lanes) {
 }
 
 /// Adds lane l of `v` to base[l · stride] for the first `lanes` lanes.
-inline void scatter_add(double* base, std::ptrdiff_t stride, int lanes, const Pack& v) {
+[[gnu::always_inline]] inline void scatter_add(double* base, std::ptrdiff_t stride, int lanes,
+                                               const Pack& v) {
   for (int lane = 0; lane < lanes; ++lane) base[stride * lane] += v[lane];
 }
 
@@ -60,8 +68,7 @@ inline void scatter_add(double* base, std::ptrdiff_t stride, int lanes, const Pa
 template <std::ptrdiff_t size>
 void scatter_add_points(double* base, int lanes, const Pack* v) {
   std::ptrdiff_t i = 0;
-#ifdef __AVX__
-  const auto add = [base](std::ptrdiff_t lane, std::ptrdiff_t entry, const Pack& more) {
+  const auto add = [base](std::ptrdiff_t lane, std::ptrdiff_t entry, const LoosePack& more) {
     double* at = base + size * lane + entry;
     store(at, load(at) + more);
   };
@@ -76,16 +83,15 @@ void scatter_add_points(double* base, int lanes, const Pack* v) {
       add(2, i, __builtin_shufflevector(a, c, 2, 3, 6, 7));
       add(3, i, __builtin_shufflevector(b, d, 2, 3, 6, 7));
     }
-#endif
   for (; i < size; ++i) scatter_add(base + i, size, lanes, v[i]);
 }
 
-inline Pack broadcast(double value) {
+[[gnu::always_inline]] inline Pack broadcast(double value) {
   return value - Pack{};  // a sum with zero would be computed, for the sake of −0
 }
 
 /// Sum of the lanes, in their order.
-inline double sum(const Pack& v) {
+[[gnu::always_inline]] inline double sum(const Pack& v) {
   double s = v[0];
   for (int lane = 1; lane < kLanes; ++lane) s += v[lane];
   return s;
@@ -93,12 +99,12 @@ inline double sum(const Pack& v) {
 
 /// e^x to about 1 ulp: x = n ln 2 + r, |r| ≤ ln 2 / 2, Taylor polynomial of degree 13 for e^r (remainder
 /// below 5·10⁻¹⁸). Below x = −708 the result stays at e^−708, above 709.4 it is infinite.
-inline Pack exp(Pack x) {
+[[gnu::always_inline]] inline Pack exp(const Pack& argument) {
   using Bits = std::int64_t __attribute__((vector_size(8 * kLanes)));
   constexpr double kRound =
       6755399441055744.0;  // 1.5·2⁵²: adding it leaves the nearest integer in the low bits
   const Pack lowest = broadcast(-708), highest = broadcast(710);
-  x = x < lowest ? lowest : x;
+  Pack x = argument < lowest ? lowest : argument;
   x = x > highest ? highest : x;
   const Pack shifted = x * 1.4426950408889634 + kRound;
   const Pack n = shifted - kRound;
@@ -113,7 +119,7 @@ inline Pack exp(Pack x) {
   return sum * (Pack)exponent;
 }
 
-inline Pack log(const Pack& x) {
+[[gnu::always_inline]] inline Pack log(const Pack& x) {
   Pack y;
   for (int lane = 0; lane < kLanes; ++lane) y[lane] = std::log(x[lane]);
   return y;
@@ -121,7 +127,7 @@ inline Pack log(const Pack& x) {
 
 /// ∛x to about 1 ulp for x > 0 (meaningless elsewhere): a third of the exponent bits gives y to 5 %, and
 /// three steps of Halley's iteration cube the error each.
-inline Pack cbrt(const Pack& x) {
+[[gnu::always_inline]] inline Pack cbrt(const Pack& x) {
   Pack y;
   for (int lane = 0; lane < kLanes; ++lane)
     y[lane] = std::bit_cast<double>(std::bit_cast<std::uint64_t>(x[lane]) / 3 + 0x2A9F7893782DA1CEULL);

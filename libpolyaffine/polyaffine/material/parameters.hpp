@@ -36,7 +36,7 @@ class StiffnessFactor {
   explicit StiffnessFactor(std::vector<double> values);
   /// InputError unless empty or one factor for each of `points`.
   void require_size(std::ptrdiff_t points) const;
-  Pack at(PackPoints points) const {
+  [[gnu::always_inline]] Pack at(PackPoints points) const {
     return values_.empty() ? broadcast(1) : gather(values_.data() + points.point, 1, points.lanes);
   }
   void apply(PackPoints points, bool tangent, PackResponse& r) const {

@@ -17,7 +17,7 @@ inline Mat3Pack cofactor(const Mat3Pack& F) {
   return H;
 }
 
-inline Pack determinant(const Mat3Pack& F, const Mat3Pack& cof) {
+[[gnu::always_inline]] inline Pack determinant(const Mat3Pack& F, const Mat3Pack& cof) {
   return F.m[0] * cof.m[0] + F.m[1] * cof.m[1] + F.m[2] * cof.m[2];
 }
 

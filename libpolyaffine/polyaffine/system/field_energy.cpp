@@ -1,9 +1,8 @@
 #include "polyaffine/system/field_energy.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 
+#include <polyaffine/core/parallel.hpp>
 #include <polyaffine/kinematics/block_products.hpp>
 #include <polyaffine/material/volumetric_response.hpp>
 
@@ -36,7 +35,7 @@ Mat3Pack scaled_cofactor(const Mat3Pack& F, const Pack& factor) {
 template <class Work>
 void for_range(bool parallel, int begin, int end, const Work& work) {
   if (parallel)
-    tbb::parallel_for(begin, end, work);
+    parallel_for(begin, end, work);
   else
     for (int k = begin; k < end; ++k) work(k);
 }

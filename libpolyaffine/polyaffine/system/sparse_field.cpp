@@ -1,5 +1,7 @@
 #include "polyaffine/system/sparse_field.hpp"
 
+#include <polyaffine/linear/sparse_system.hpp>
+
 namespace polyaffine {
 
 std::unique_ptr<LinearSystem> sparse_field(const System& system) {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include <polyaffine/kinematics/lagrange.hpp>
+#include <polyaffine/linear/sparse_system.hpp>
 
 #include "support/labelled_box.hpp"
 #include "support/matrix_system.hpp"

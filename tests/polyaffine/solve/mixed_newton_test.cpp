@@ -2,6 +2,7 @@
 #include <tbb/global_control.h>
 
 #include <polyaffine/check/derivative_check.hpp>
+#include <polyaffine/core/threads.hpp>
 #include <polyaffine/kinematics/lagrange.hpp>
 #include <polyaffine/material/neo_hookean.hpp>
 #include <polyaffine/material/springs.hpp>
@@ -163,6 +164,7 @@ TEST(MixedNewton, AnIncompressibleSpaceKeepsEveryMeanDilatationWhateverThePenalt
 }
 
 TEST(MixedNewton, HasTheSameBitsOnOneThreadAndOnTwo) {
+  use_threads();
   const Bar bar;
   std::vector<Vector> results;
   for (const std::size_t threads : {1, 2}) {

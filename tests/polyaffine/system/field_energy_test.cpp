@@ -6,6 +6,7 @@
 #include <memory>
 
 #include <polyaffine/check/derivative_check.hpp>
+#include <polyaffine/core/threads.hpp>
 #include <polyaffine/kinematics/lagrange.hpp>
 #include <polyaffine/material/neo_hookean.hpp>
 #include <polyaffine/material/viscosity.hpp>
@@ -189,6 +190,7 @@ TEST(FieldEnergy, ThreadsDoNotChangeABit) {
     const FieldEnergy energy = make_energy(mesh, {1, space}, 2);
     const Vector c = random_vector(energy.table().num_unknowns(), 0.03, 6);
     const Vector rate = random_vector(energy.table().num_unknowns(), 0.03, 7);
+    use_threads();
     const auto run = [&](std::size_t threads) {
       const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
       return std::pair(energy.evaluate({c, {}, &rate}), tangent(energy, {c, {}, &rate}, 1, 0.5));
@@ -211,6 +213,7 @@ TEST(FieldEnergy, ThreadsDoNotChangeABitOfTheForcesOfManyPoints) {
     ASSERT_GT(energy.table().num_points(), 4096);
     const Vector c = random_vector(energy.table().num_unknowns(), 0.005, 6);
     const Vector rate = random_vector(energy.table().num_unknowns(), 0.03, 7);
+    use_threads();
     const auto run = [&](std::size_t threads) {
       const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
       return energy.evaluate({c, {}, &rate});

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <polyaffine/kinematics/lagrange.hpp>
+#include <polyaffine/linear/sparse_system.hpp>
 #include <polyaffine/material/neo_hookean.hpp>
 #include <polyaffine/material/springs.hpp>
 #include <polyaffine/solve/newton.hpp>

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <polyaffine/kinematics/lagrange.hpp>
+#include <polyaffine/linear/sparse_system.hpp>
 #include <polyaffine/material/neo_hookean.hpp>
 #include <polyaffine/material/signed_volume.hpp>
 #include <polyaffine/material/springs.hpp>
