@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cardiac/model/beat_system.hpp>
+#include <cardiac/run/beat.hpp>
 
 namespace cardiac {
 
