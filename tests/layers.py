@@ -29,8 +29,8 @@ ORDER = {
         tissue contraction circulation
         anatomy activation
         fibres
-        protocol
-        reduction
+        scene
+        reduction protocol
         strain
         model
         training

@@ -13,6 +13,7 @@
 #include <cardiac/bench/bench_figure.hpp>
 #include <cardiac/bench/bench_table.hpp>
 #include <cardiac/bench/cube_bench.hpp>
+#include <cardiac/protocol/build_anatomy.hpp>
 #include <polyaffine/core/atomic_file.hpp>
 
 #include "box_mesh.hpp"

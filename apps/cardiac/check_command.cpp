@@ -27,7 +27,8 @@ void print_line(const char* what, const Value& value, const std::string& remark 
 }
 
 void check(const CheckOptions& options) {
-  const auto [protocol, anatomy] = load_input(given_or_example(options.protocol), options.overrides);
+  const Protocol protocol = load_input(given_or_example(options.protocol), options.overrides);
+  const auto& anatomy = protocol.heart;
   print_warnings(protocol.warnings);
   const VolumeCheck found = check_volume(anatomy, protocol);
   std::cout << std::setprecision(3);

@@ -5,6 +5,7 @@
 
 #include <cardiac/anatomy/orientation.hpp>
 #include <cardiac/fibres/file_fibres.hpp>
+#include <cardiac/protocol/build_anatomy.hpp>
 #include <cardiac/protocol/names.hpp>
 #include <polyaffine/core/error.hpp>
 
@@ -114,21 +115,21 @@ Anatomy load_anatomy(const Protocol& protocol, std::vector<std::string>& warning
   return with_fibres(load_heart(protocol, warnings), protocol, warnings);
 }
 
-RunInput load_input(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+Protocol load_input(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                     const WallSizeRule& size) {
-  RunInput out{load_protocol(file, overrides), nullptr};
-  check_mesh_file(out.protocol);
+  Protocol out = load_protocol(file, overrides);
+  check_mesh_file(out);
   std::vector<std::string> warnings;
-  const HeartMesh heart = load_heart(out.protocol, warnings, size);
-  if (out.protocol.scheme_assumed) {
+  const HeartMesh heart = load_heart(out, warnings, size);
+  if (out.scheme_assumed) {
     const bool two = heart.file.mesh.surface({kRvEndocardium}).cols() > 0;
     std::vector<std::string> all = overrides;
     all.push_back("anatomy.scheme=" +
                   protocol::name_of(two ? protocol::Scheme::aha29 : protocol::Scheme::aha17));
-    out.protocol = load_protocol(file, all);
+    out = load_protocol(file, all);
   }
-  out.anatomy = std::make_shared<const Anatomy>(with_fibres(heart, out.protocol, warnings));
-  out.protocol.warnings.insert(out.protocol.warnings.end(), warnings.begin(), warnings.end());
+  out.heart = std::make_shared<const Anatomy>(with_fibres(heart, out, warnings));
+  out.warnings.insert(out.warnings.end(), warnings.begin(), warnings.end());
   return out;
 }
 

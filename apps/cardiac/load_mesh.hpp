@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <cardiac/anatomy/heart_mesh.hpp>
-#include <cardiac/reduction/discretisation.hpp>
+#include <cardiac/protocol/build_anatomy.hpp>
 
 namespace cardiac::app {
 
@@ -24,17 +24,11 @@ Anatomy anatomy_of(const HeartMesh& heart, const Protocol& protocol, std::vector
 /// does not use are a warning. Throws InputError as FileFibres.
 Anatomy load_anatomy(const Protocol& protocol, std::vector<std::string>& warnings);
 
-/// What a run starts from.
-struct RunInput {
-  Protocol protocol;  ///< its warnings with those of the mesh
-  std::shared_ptr<const Anatomy> anatomy;
-};
-
-/// A protocol file with its overrides, and the anatomy on its mesh: a scheme that neither file nor shape
+/// A protocol file with its overrides, its heart on its mesh: a scheme that neither file nor shape
 /// tells is that of the mesh; with the fibres of the mesh file where the protocol asks for them (those that a
 /// protocol with fibres does not use are a warning). Throws InputError as load_protocol, load_heart,
 /// anatomy_of and FileFibres.
-RunInput load_input(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+Protocol load_input(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                     const WallSizeRule& size = {});
 
 }  // namespace cardiac::app

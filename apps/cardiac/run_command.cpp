@@ -10,17 +10,15 @@
 #include <sstream>
 
 #include <cardiac/protocol/describe.hpp>
+#include <cardiac/protocol/plan.hpp>
 #include <cardiac/report/figures.hpp>
 #include <cardiac/report/haemodynamics_text.hpp>
 #include <cardiac/report/page.hpp>
 #include <cardiac/report/summary.hpp>
 #include <cardiac/report/tables.hpp>
-#include <cardiac/run/build_ventricle.hpp>
 #include <cardiac/run/checkpoint.hpp>
-#include <cardiac/run/plan.hpp>
-#include <cardiac/run/plausibility.hpp>
+#include <cardiac/run/simulate.hpp>
 #include <cardiac/run/verification.hpp>
-#include <cardiac/training/trained_rule.hpp>
 #include <nlohmann/json.hpp>
 #include <polyaffine/core/atomic_file.hpp>
 #include <polyaffine/core/error.hpp>
@@ -43,6 +41,7 @@ struct RunOptions {
   std::string out;
   std::string method;
   std::vector<std::string> overrides;
+  std::string identity;  // the protocol as resolved, JSON
   bool verify = false, dry_run = false, resume = false, quiet = false, verbose = false, force = false;
 };
 
@@ -166,59 +165,35 @@ std::shared_ptr<const Checkpoint> last_checkpoint(const std::filesystem::path& f
   return nullptr;
 }
 
-CheckpointOrigin origin_of(const Anatomy& anatomy, const Protocol& protocol) {
-  std::string mesh = polyaffine::digest(anatomy.mesh);
-  if (protocol.fibres && protocol.fibres->source == protocol::FibreSource::file)
-    mesh += ", fibres " + polyaffine::digest(polyaffine::Matrix(tet_fibres(anatomy, *protocol.fibres)));
-  return {CARDIAC_VERSION, resolved_json(protocol).dump(), std::move(mesh)};
+CheckpointOrigin origin_of(const Scene& scene, const std::string& protocol_json) {
+  std::string mesh = polyaffine::digest(scene.heart->mesh);
+  if (scene.fibres && scene.fibres->source == scene::FibreSource::file)
+    mesh += ", fibres " + polyaffine::digest(polyaffine::Matrix(tet_fibres(*scene.heart, *scene.fibres)));
+  return {CARDIAC_VERSION, protocol_json, std::move(mesh)};
 }
 
-// The run, with checkpoints or without.
-HeartPath solve(const Ventricle& ventricle, const Protocol& protocol, const RunOptions& options,
-                const std::filesystem::path& out, const InterruptGuard& interrupt, bool checkpoints = true) {
+// How the run is watched, stopped and kept for --resume in its folder.
+RunControl control_of(const Scene& scene, const RunOptions& options, const std::filesystem::path& out,
+                      const InterruptGuard& interrupt, ProgressLine& line) {
   const std::filesystem::path file = out / "checkpoint.json";
-  const CheckpointOrigin origin = origin_of(*ventricle.anatomy, protocol);
-  ProgressLine line(options.quiet);
+  const CheckpointOrigin origin = origin_of(scene, options.identity);
   RunControl control;
   control.progress = [&line](const std::string& what, double fraction) { line(what, fraction); };
   control.stop_reason = [&interrupt] { return interrupt.reason(); };
-  if (checkpoints)
-    control.on_checkpoint = [&](const Checkpoint& at) {
-      polyaffine::write_atomically(file, checkpoint_text(at, origin));
-    };
+  control.on_checkpoint = [file, origin](const Checkpoint& at) {
+    polyaffine::write_atomically(file, checkpoint_text(at, origin));
+  };
+  control.on_built = [out] { remove_old_results(out); };
+  control.on_distrust = [file] { std::filesystem::remove(file); };
+  control.keep_absurd = options.force;
   if (options.resume) control.resume = last_checkpoint(file, origin);
-  remove_old_results(out);
-  return protocol.circulation ? run_beats(ventricle, protocol, control)
-                              : run_prescribed(ventricle, protocol, control);
-}
-
-// An absurd result is not a completed one, unless the user insists.
-void judge(BeatResult& result, bool insist) {
-  if (!result.completed) return;
-  std::string reason;
-  for (const std::string& text : absurdities(result)) reason += (reason.empty() ? "" : "; ") + text;
-  if (reason.empty()) return;
-  if (insist) return result.warnings.push_back("absurd result, kept by --force: " + reason);
-  result.completed = false;
-  result.stop_reason = "absurd result: " + reason;
-}
-
-// Why a path by a trained rule is not to be used; empty where it is.
-std::string distrust(const Ventricle& ventricle, const Protocol& protocol, const HeartPath& path) {
-  if (!ventricle.all_points) return "";
-  if (!path.completed) return "with the trained integration points the run " + path.stop_reason;
-  const double error = rule_error(ventricle, protocol, path);
-  if (error <= kTrustedRuleError) return "";
-  std::ostringstream out;
-  out << std::setprecision(2) << "the trained integration points are " << 100 * error
-      << " % off in displacement, more than " << 100 * kTrustedRuleError << " %";
-  return out.str();
+  return control;
 }
 
 void run(RunOptions options) {
   const auto start = std::chrono::steady_clock::now();
   if (!options.method.empty()) options.overrides.push_back("reduction.method=" + options.method);
-  auto [protocol, anatomy] =
+  Protocol protocol =
       load_input(given_or_example(options.protocol), options.overrides, {.insist = options.force});
   if (protocol.output.mesh_series && !writes_mesh_series()) {
     protocol.output.mesh_series = false;
@@ -234,31 +209,22 @@ void run(RunOptions options) {
   polyaffine::make_folder(out);
   if (protocol.mesh.file) check_not_a_result(mesh_path(protocol), out);
 
-  Ventricle ventricle = build_ventricle(anatomy, protocol, protocol.reduction.method);
-  const auto nodes = segment_nodes(*anatomy, protocol);
-  const double setup = seconds_since(start);
-  const auto solve_start = std::chrono::steady_clock::now();
+  options.identity = resolved_json(protocol).dump();
   const InterruptGuard interrupt;
-  HeartPath path = solve(ventricle, protocol, options, out, interrupt);
-  const std::string reason = interrupt.reason().empty() ? distrust(ventricle, protocol, path) : "";
-  if (!reason.empty()) {
-    // Without a checkpoint: --resume would go on from it with the trained points.
-    options.resume = false;
-    std::filesystem::remove(out / "checkpoint.json");
-    ventricle = Ventricle(*ventricle.all_points);
-    path = solve(ventricle, protocol, options, out, interrupt, false);
-    path.warnings.push_back(reason + ": computed with all points");
+  Outcome outcome;
+  {
+    ProgressLine line(options.quiet);
+    outcome = simulate(protocol, control_of(protocol, options, out, interrupt, line));
   }
-  const double solve_s = seconds_since(solve_start);
+  const auto& [ventricle, nodes, path, told] = outcome;
+  BeatResult result = told;
+  const double computed = seconds_since(start);
+  result.wall_setup_s = computed - result.wall_solve_s;
   const auto output_start = std::chrono::steady_clock::now();
-  BeatResult result = describe_path(ventricle, nodes, protocol, path);
-  result.wall_setup_s = setup;
-  result.wall_solve_s = solve_s;
   result.plan = items;
-  judge(result, options.force);
   print_warnings(result.warnings);
   result.warnings.insert(result.warnings.begin(), protocol.warnings.begin(), protocol.warnings.end());
-  const RunInfo info{CARDIAC_VERSION, resolved_json(protocol).dump(), 0};
+  const RunInfo info{CARDIAC_VERSION, options.identity, 0};
   const std::string wall = write_results(ventricle, protocol, path, result, info, out);
   result.wall_output_s = seconds_since(output_start);
   write_summary(protocol, result, info, out, wall, start);

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include <cardiac/run/build_ventricle.hpp>
-#include <cardiac/run/result.hpp>
+#include <cardiac/protocol/build_anatomy.hpp>
+#include <cardiac/run/simulate.hpp>
 #include <polyaffine/vtk/read.hpp>
 
 namespace cardiac::testing {
@@ -40,12 +40,14 @@ struct HeartRun {
   KeyStates key;
 
   explicit HeartRun(const Protocol& of) : HeartRun(of, read_anatomy(of)) {}
-  HeartRun(Protocol of, const std::shared_ptr<const Anatomy>& anatomy)
-      : protocol(std::move(of)),
-        ventricle(build_ventricle(anatomy, protocol, protocol.reduction.method)),
-        path(protocol.circulation ? run_beats(ventricle, protocol) : run_prescribed(ventricle, protocol)),
-        result(describe_path(ventricle, segment_nodes(*anatomy, protocol), protocol, path)),
-        key(key_states(path, protocol)) {}
+  HeartRun(Protocol of, std::shared_ptr<const Anatomy> anatomy) : protocol(std::move(of)) {
+    protocol.heart = std::move(anatomy);
+    Outcome outcome = simulate(protocol, {.keep_absurd = true});
+    ventricle = std::move(outcome.model);
+    path = std::move(outcome.path);
+    result = std::move(outcome.result);
+    key = key_states(path, protocol);
+  }
 };
 
 /// The run of a shipped protocol as it is, computed once a test program.

@@ -1,4 +1,5 @@
 #include <cardiac/bench/model.hpp>
+#include <cardiac/protocol/build_anatomy.hpp>
 #include <cardiac/run/build_ventricle.hpp>
 
 #include <Eigen/Geometry>

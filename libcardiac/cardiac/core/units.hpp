@@ -7,6 +7,7 @@ namespace cardiac {
 inline constexpr double kPa_per_mmHg = 0.133322387415;  ///< 13.5951 g/cm³ × 9.80665 m/s² × 1 mm
 inline constexpr double mm3_per_mL = 1000;
 inline constexpr double ms_per_s = 1000;
+inline constexpr double ms_per_min = 60 * ms_per_s;
 
 /// mmHg·s/mL to kPa·ms/mm³
 inline constexpr double resistance_per_mmHg_s_per_mL = kPa_per_mmHg * ms_per_s / mm3_per_mL;

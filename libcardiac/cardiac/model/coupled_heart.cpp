@@ -26,7 +26,7 @@ constexpr double kRounding = 1e-14;  // of the pressures, relative
 }  // namespace
 
 CoupledHeart couple(const Ventricle& ventricle, std::shared_ptr<const CirculationModel> circulation,
-                    const protocol::Time& time) {
+                    const scene::Time& time) {
   const int cavities = circulation->num_cavities();
   if (cavities != std::ssize(ventricle.cavities))
     throw std::invalid_argument("couple: the circulation and the wall differ in their number of cavities");
@@ -34,7 +34,8 @@ CoupledHeart couple(const Ventricle& ventricle, std::shared_ptr<const Circulatio
   out.system = wall_system(ventricle, ventricle.tension(), time.absolute_tolerance_mm);
   polyaffine::StateLayout& layout = out.system.layout;
   out.displacement = layout.field();
-  const double pressure_tolerance = time.absolute_tolerance_mmHg * kPa_per_mmHg;
+  add_inertia(ventricle, time, out.system);
+  const double pressure_tolerance = time.absolute_tolerance_kPa;
   out.volumes = layout.add(
       {.name = "cavity volumes", .unit = "mm3", .absolute_tolerance = kVolumeTolerance_mm3}, cavities);
   out.vessels =

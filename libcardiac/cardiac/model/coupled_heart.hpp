@@ -29,7 +29,7 @@ struct CoupledHeart {
 /// pressures of cavities are left out of the error test: while its valves are closed, that of a cavity is the
 /// multiplier of its constant volume.
 CoupledHeart couple(const Ventricle& ventricle, std::shared_ptr<const CirculationModel> circulation,
-                    const protocol::Time& time);
+                    const scene::Time& time);
 
 /// Changes the cavity pressures of y by the viscous pressures δ of the flows that the valves let through, and
 /// the rates with them, so that the residual vanishes: with Z = C⁻¹ ∂V/∂c and C the viscous tangent, ċ moves

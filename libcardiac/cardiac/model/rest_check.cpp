@@ -9,7 +9,7 @@ using polyaffine::Vector;
 
 namespace {
 
-std::string text_of(const protocol::Reduction& r, std::size_t points, int unknowns) {
+std::string text_of(const scene::Reduction& r, std::size_t points, int unknowns) {
   std::string functions, rings;
   for (const std::string& word : *r.enrichment) functions += (functions.empty() ? "" : ", ") + word;
   for (const int n : r.ring_nodes) rings += (rings.empty() ? "" : ", ") + std::to_string(n);
@@ -19,7 +19,7 @@ std::string text_of(const protocol::Reduction& r, std::size_t points, int unknow
 
 }  // namespace
 
-void check_rest(const Ventricle& ventricle, const Protocol& protocol) {
+void check_rest(const Ventricle& ventricle, const Scene& scene) {
   // Without contraction: what a passive wall resists. Tensions of zero where its laws want them.
   const auto no_tension =
       ventricle.contraction
@@ -34,7 +34,7 @@ void check_rest(const Ventricle& ventricle, const Protocol& protocol) {
   throw polyaffine::InputError(
       "reduction: the wall at rest resists some motions with nothing or less (its stiffness is not positive "
       "definite); found " +
-      text_of(protocol.reduction, d.points.tet.size(), d.num_unknowns) +
+      text_of(scene.reduction, d.points.tet.size(), d.num_unknowns) +
       "; expected control nodes apart from each other, functions that do not depend on each other, and "
       "integration points that see them all: fewer words in reduction.enrichment, fewer "
       "reduction.ring_nodes, a finer mesh, or reduction.integration = \"gauss\"");

@@ -5,9 +5,11 @@
 
 #include <cardiac/activation/activation.hpp>
 #include <cardiac/model/vertex_displacement.hpp>
-#include <cardiac/protocol/contraction_time.hpp>
+#include <cardiac/scene/contraction_time.hpp>
 #include <polyaffine/core/error.hpp>
+#include <polyaffine/kinematics/lagrange.hpp>
 #include <polyaffine/material/signed_volume.hpp>
+#include <polyaffine/system/inertia.hpp>
 #include <polyaffine/system/sparse_field.hpp>
 #include <polyaffine/system/support.hpp>
 
@@ -19,7 +21,7 @@ using polyaffine::Vector;
 
 namespace {
 
-std::vector<ActivationSite> sites(const Anatomy& anatomy, const protocol::Activation& activation) {
+std::vector<ActivationSite> sites(const Anatomy& anatomy, const scene::Activation& activation) {
   std::vector<ActivationSite> out;
   for (const auto& X : activation.sites_mm) out.push_back({Vec3(X.data()), activation.onset_ms});
   for (const int segment : activation.site_segments) {
@@ -48,11 +50,11 @@ std::vector<ActivationSite> sites(const Anatomy& anatomy, const protocol::Activa
 }
 
 // Activation time of each vertex, ms, without the delays of regions.
-Vector vertex_activation(const Anatomy& anatomy, const Protocol& protocol) {
-  const auto& a = *protocol.activation;
-  if (a.mode == protocol::ActivationMode::uniform)
+Vector vertex_activation(const Anatomy& anatomy, const Scene& scene) {
+  const auto& a = *scene.activation;
+  if (a.mode == scene::ActivationMode::uniform)
     return Vector::Constant(anatomy.mesh.num_points(), a.onset_ms);
-  return activation_times(anatomy.mesh, tet_fibres(anatomy, *protocol.fibres),
+  return activation_times(anatomy.mesh, tet_fibres(anatomy, *scene.fibres),
                           {a.conduction_along_fibre_mm_per_ms, a.conduction_across_fibre_mm_per_ms},
                           sites(anatomy, a));
 }
@@ -67,39 +69,52 @@ Vector at_points(const Anatomy& anatomy, const Vector& at_vertices, const polyaf
 }
 
 // The delays of regions at the vertices, ms.
-Vector vertex_region_delay(const Anatomy& anatomy, const Protocol& protocol) {
+Vector vertex_region_delay(const Anatomy& anatomy, const Scene& scene) {
   const polyaffine::WallPoints vertices = vertex_points(anatomy.mesh);
-  const RegionFactors factors = region_factors(anatomy, protocol, vertices);
+  const RegionFactors factors = region_factors(anatomy, scene, vertices);
   return Eigen::Map<const Vector>(factors.delay_ms.data(), anatomy.mesh.num_points());
 }
 
-std::shared_ptr<const ContractionField> build_contraction(const Anatomy& anatomy, const Protocol& protocol,
+std::shared_ptr<const ContractionField> build_contraction(const Anatomy& anatomy, const Scene& scene,
                                                           const polyaffine::WallPoints& points,
                                                           const RegionFactors& factors, BuildCount& built) {
   ++built["contraction"];
   ++built["activation"];
-  const Vector at_vertices = vertex_activation(anatomy, protocol);
-  ContractionField out{
-      TensionCurve(bestel_parameters(*protocol.contraction, protocol.time), beat_ms(protocol.time)),
-      at_points(anatomy, at_vertices, points), Vector::Ones(static_cast<Eigen::Index>(points.tet.size())),
-      at_vertices};
+  const Vector at_vertices = vertex_activation(anatomy, scene);
+  ContractionField out{TensionCurve(bestel_parameters(*scene.contraction, scene.time), scene.time.beat_ms),
+                       at_points(anatomy, at_vertices, points),
+                       Vector::Ones(static_cast<Eigen::Index>(points.tet.size())), at_vertices};
   if (!factors.tension.empty()) {
     out.scale = Eigen::Map<const Vector>(factors.tension.data(), out.scale.size());
     out.delay_ms += Eigen::Map<const Vector>(factors.delay_ms.data(), out.scale.size());
-    out.vertex_delay_ms += vertex_region_delay(anatomy, protocol);
+    out.vertex_delay_ms += vertex_region_delay(anatomy, scene);
   }
   return std::make_shared<ContractionField>(std::move(out));
 }
 
+polyaffine::Points unit_normals(const polyaffine::SurfacePoints& points) {
+  polyaffine::Points out(3, points.X.cols());
+  for (Eigen::Index q = 0; q < points.X.cols(); ++q)
+    out.col(q) = Vec3(points.X_xi.col(q)).cross(Vec3(points.X_eta.col(q))).normalized();
+  return out;
+}
+
 std::shared_ptr<const polyaffine::Term> epicardial_support(const polyaffine::Basis& basis,
                                                            const polyaffine::SurfacePoints& points,
-                                                           const protocol::Boundary& boundary) {
-  polyaffine::Points normals(3, points.X.cols());
-  for (Eigen::Index q = 0; q < points.X.cols(); ++q)
-    normals.col(q) = Vec3(points.X_xi.col(q)).cross(Vec3(points.X_eta.col(q))).normalized();
-  return std::make_shared<polyaffine::Support>(
-      polyaffine::displacement_table(basis, points),
-      polyaffine::SupportParameters{boundary.epicardial_stiffness_kPa_per_mm, 0, std::move(normals)});
+                                                           const scene::Boundary& boundary) {
+  polyaffine::SupportParameters parameters{boundary.epicardial_stiffness_kPa_per_mm,
+                                           boundary.epicardial_damping_kPa_ms_per_mm};
+  if (boundary.epicardial_directions == scene::SupportDirections::normal)
+    parameters.normals = unit_normals(points);
+  return std::make_shared<polyaffine::Support>(polyaffine::displacement_table(basis, points),
+                                               std::move(parameters));
+}
+
+// Points that integrate products of two functions: those of the elements, or of a reduced model its own.
+polyaffine::FieldTable mass_table(const Discretisation& d) {
+  const auto* elements = dynamic_cast<const polyaffine::LagrangeBasis*>(d.basis.get());
+  return polyaffine::displacement_table(*d.basis,
+                                        elements ? elements->wall_points(2 * elements->order()) : d.points);
 }
 
 }  // namespace
@@ -128,28 +143,32 @@ Vector Ventricle::cavity_volumes(const Vector& c) const {
   return out;
 }
 
-Discretisation discretise(const std::shared_ptr<const Anatomy>& anatomy, const Protocol& protocol,
-                          protocol::Method method) {
-  return method == protocol::Method::fem ? full_discretisation(*anatomy, protocol)
-                                         : reduced_discretisation(*anatomy, protocol);
+Discretisation discretise(const std::shared_ptr<const Anatomy>& anatomy, const Scene& scene,
+                          scene::Method method) {
+  return method == scene::Method::fem ? full_discretisation(*anatomy, scene)
+                                      : reduced_discretisation(*anatomy, scene);
 }
 
-Ventricle assemble_ventricle(std::shared_ptr<const Anatomy> anatomy, const Protocol& protocol,
+Ventricle assemble_ventricle(std::shared_ptr<const Anatomy> anatomy, const Scene& scene,
                              Discretisation discretisation) {
   Ventricle out;
   out.discretisation = std::move(discretisation);
   const auto& d = out.discretisation;
   check_size(d);
-  const RegionFactors factors = region_factors(*anatomy, protocol, d.points);
+  const RegionFactors factors = region_factors(*anatomy, scene, d.points);
   if (!factors.stiffness.empty()) ++out.built["regions"];
-  out.wall = build_wall(*anatomy, protocol, d, factors, out.built);
+  out.wall = build_wall(*anatomy, scene, d, factors, out.built);
   ++out.built[d.sparse ? "full order" : "reduction"];
   if (!d.cavities.empty()) ++out.built["cavity"];
   for (const CavitySurface& surface : d.cavities) out.cavities.push_back(cavity_of(*d.basis, surface));
   if (!d.epicardium_points.tet.empty())
-    out.supports.push_back(epicardial_support(*d.basis, d.epicardium_points, protocol.boundary));
-  if (protocol.contraction)
-    out.contraction = build_contraction(*anatomy, protocol, d.points, factors, out.built);
+    out.supports.push_back(epicardial_support(*d.basis, d.epicardium_points, scene.boundary));
+  if (scene.tissue.density_mg_per_mm3 > 0 && scene.contraction) {
+    ++out.built["inertia"];
+    out.mass = std::make_shared<const polyaffine::FieldTable>(mass_table(d));
+    out.density_mg_per_mm3 = scene.tissue.density_mg_per_mm3;
+  }
+  if (scene.contraction) out.contraction = build_contraction(*anatomy, scene, d.points, factors, out.built);
   out.anatomy = std::move(anatomy);
   return out;
 }
@@ -162,6 +181,14 @@ polyaffine::System wall_system(const Ventricle& ventricle, polyaffine::PointValu
   if (ventricle.discretisation.sparse) out.linear = polyaffine::sparse_field;
   out.terms.insert(out.terms.end(), ventricle.supports.begin(), ventricle.supports.end());
   return out;
+}
+
+void add_inertia(const Ventricle& ventricle, const scene::Time& time, polyaffine::System& system) {
+  if (!ventricle.mass) return;
+  // Of the displacement that a velocity makes in the longest step.
+  const double tolerance = time.absolute_tolerance_mm / time.max_step_ms;
+  system.terms.push_back(std::make_shared<polyaffine::Inertia>(*ventricle.mass, ventricle.density_mg_per_mm3,
+                                                               tolerance, system.layout));
 }
 
 polyaffine::System pressed_system(const Ventricle& ventricle, polyaffine::PointValues tension,

@@ -27,14 +27,16 @@ struct Cavity {
   std::shared_ptr<const polyaffine::FieldEnergy> volume;
 };
 
-/// One or two ventricles assembled from the parts that a protocol names, full order or reduced; parts it does
+/// One or two ventricles assembled from the parts that a scene names, full order or reduced; parts it does
 /// not name are not there. Immutable once built.
 struct Ventricle {
   std::shared_ptr<const Anatomy> anatomy;
   Discretisation discretisation;
   std::shared_ptr<const polyaffine::FieldEnergy> wall;
-  std::vector<Cavity> cavities;  ///< in the order of Discretisation::cavities
-  polyaffine::Terms supports;    ///< what holds the wall's surfaces
+  std::vector<Cavity> cavities;                        ///< in the order of Discretisation::cavities
+  polyaffine::Terms supports;                          ///< what holds the wall's surfaces
+  std::shared_ptr<const polyaffine::FieldTable> mass;  ///< displacement, for inertia; null without
+  double density_mg_per_mm3 = 0;
   std::shared_ptr<const ContractionField> contraction;
   std::shared_ptr<const Ventricle> all_points;  ///< the same without a trained rule; null where there is none
   BuildCount built;
@@ -52,11 +54,11 @@ struct Ventricle {
 /// The cavity behind a surface, on functions.
 Cavity cavity_of(const polyaffine::Basis& basis, const CavitySurface& surface);
 
-/// Shape functions and integration points of a protocol's model; `trained` points are all their candidates.
-Discretisation discretise(const std::shared_ptr<const Anatomy>& anatomy, const Protocol& protocol,
-                          protocol::Method method);
-/// The parts that the protocol names, on a discretisation.
-Ventricle assemble_ventricle(std::shared_ptr<const Anatomy> anatomy, const Protocol& protocol,
+/// Shape functions and integration points of a scene's model; `trained` points are all their candidates.
+Discretisation discretise(const std::shared_ptr<const Anatomy>& anatomy, const Scene& scene,
+                          scene::Method method);
+/// The parts that the scene names, on a discretisation.
+Ventricle assemble_ventricle(std::shared_ptr<const Anatomy> anatomy, const Scene& scene,
                              Discretisation discretisation);
 
 /// What loads a wall: pressure of every cavity and active tension of every point (empty: none), kPa.
@@ -69,6 +71,10 @@ struct WallLoad {
 /// supports = 0, over the block "displacement" with a tolerance of time integration.
 polyaffine::System wall_system(const Ventricle& ventricle, polyaffine::PointValues tension = {},
                                double tolerance_mm = 0);
+
+/// Adds the inertia that the ventricle has, with its velocity, to a system in time; of `time` the tolerances
+/// are read.
+void add_inertia(const Ventricle& ventricle, const scene::Time& time, polyaffine::System& system);
 
 /// The same under pressures p(t) in the cavities, − Σ p ∂V/∂c. Cavities without a pressure have none.
 polyaffine::System pressed_system(const Ventricle& ventricle, polyaffine::PointValues tension,

@@ -14,22 +14,22 @@ using polyaffine::Vector;
 
 constexpr double kSoft = 0.3, kStiff = 0.4999;
 
-// The protocol with an isotropic passive wall of this Poisson's ratio, a pressure in its cavities, and
+// The scene with an isotropic passive wall of this Poisson's ratio, a pressure in its cavities, and
 // nothing else.
-Protocol passive(Protocol protocol, double poisson) {
-  const bool isotropic = protocol.tissue.law == protocol::TissueLaw::saint_venant_kirchhoff;
-  if (!isotropic) protocol.tissue.law = protocol::TissueLaw::neo_hookean;
-  const double young = 2.98 * protocol.tissue.mu_kPa;
-  protocol.tissue.mu_kPa = young / (2 * (1 + poisson));
-  protocol.tissue.bulk_modulus_kPa = young / (3 * (1 - 2 * poisson));
-  protocol.tissue.poisson_ratio = poisson;
-  double& local = protocol.reduction.local_bulk_modulus_kPa;
+Scene passive(Scene scene, double poisson) {
+  const bool isotropic = scene.tissue.law == scene::TissueLaw::saint_venant_kirchhoff;
+  if (!isotropic) scene.tissue.law = scene::TissueLaw::neo_hookean;
+  const double young = 2.98 * scene.tissue.mu_kPa;
+  scene.tissue.mu_kPa = young / (2 * (1 + poisson));
+  scene.tissue.bulk_modulus_kPa = young / (3 * (1 - 2 * poisson));
+  scene.tissue.poisson_ratio = poisson;
+  double& local = scene.reduction.local_bulk_modulus_kPa;
   local = std::min(local, 0.9 * young / (3 * (1 - 2 * kSoft)));
-  protocol.contraction.reset();
-  protocol.activation.reset();
-  protocol.fibres.reset();
-  protocol.regions.clear();
-  return protocol;
+  scene.contraction.reset();
+  scene.activation.reset();
+  scene.fibres.reset();
+  scene.regions.clear();
+  return scene;
 }
 
 double compliance(const Ventricle& ventricle) {
@@ -55,11 +55,11 @@ std::string text(const Number& value) {
 
 }  // namespace
 
-VolumeCheck check_volume(const std::shared_ptr<const Anatomy>& anatomy, const Protocol& protocol) {
-  if (protocol.reduction.method != protocol::Method::polyaffine)
+VolumeCheck check_volume(const std::shared_ptr<const Anatomy>& anatomy, const Scene& scene) {
+  if (scene.reduction.method != scene::Method::polyaffine)
     throw polyaffine::InputError(
         "reduction.method: found fem, expected polyaffine: the volume check is of reduced models");
-  const Protocol soft = passive(protocol, kSoft), stiff = passive(protocol, kStiff);
+  const Scene soft = passive(scene, kSoft), stiff = passive(scene, kStiff);
   const Discretisation discretisation = reduced_discretisation(*anatomy, soft);
   const Ventricle at_soft = assemble_ventricle(anatomy, soft, discretisation);
   const Ventricle at_stiff = assemble_ventricle(anatomy, stiff, discretisation);

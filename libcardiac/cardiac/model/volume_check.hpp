@@ -27,9 +27,9 @@ struct VolumeCheck {
 /// 0.06 to 0.17.
 inline constexpr double kLockedRatio = 0.7, kUnstableInfSup = 0.3;
 
-/// The model that the protocol's reduction makes of an anatomy, its wall neo-Hookean (of the protocol's law
+/// The model that the scene's reduction makes of an anatomy, its wall neo-Hookean (of the scene's law
 /// only Saint Venant–Kirchhoff stays, which has no pressure space). Throws InputError for full order and as
 /// reduced_discretisation.
-VolumeCheck check_volume(const std::shared_ptr<const Anatomy>& anatomy, const Protocol& protocol);
+VolumeCheck check_volume(const std::shared_ptr<const Anatomy>& anatomy, const Scene& scene);
 
 }  // namespace cardiac

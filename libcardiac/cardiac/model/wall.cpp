@@ -25,9 +25,8 @@ namespace {
 
 using LawPointer = std::shared_ptr<const Law>;
 
-LawPointer passive_law(const protocol::Tissue& t, const FibreAxes& fibres,
-                       const std::vector<double>& factor) {
-  using protocol::TissueLaw;
+LawPointer passive_law(const scene::Tissue& t, const FibreAxes& fibres, const std::vector<double>& factor) {
+  using scene::TissueLaw;
   switch (t.law) {
     case TissueLaw::guccione:
       return std::make_shared<Guccione>(GuccioneParameters{t.C_kPa, t.bf, t.bt, t.bfs}, fibres, factor);
@@ -65,35 +64,35 @@ std::vector<double> apical_factor(const Anatomy& anatomy, const Discretisation& 
 
 }  // namespace
 
-HelixAngles helix_angles(const protocol::Fibres& f) {
+HelixAngles helix_angles(const scene::Fibres& f) {
   return {f.endo_angle_deg, f.epi_angle_deg, f.sheet_angle_deg, f.rv_endo_angle_deg, f.rv_epi_angle_deg};
 }
 
-FibreAxes fibres_at(const Anatomy& anatomy, const protocol::Fibres& fibres, const std::vector<int>& tet,
+FibreAxes fibres_at(const Anatomy& anatomy, const scene::Fibres& fibres, const std::vector<int>& tet,
                     const Eigen::Matrix4Xd& barycentric) {
   if (anatomy.fibres) return anatomy.fibres(*anatomy.coordinates, tet, barycentric);
-  if (fibres.source == protocol::FibreSource::file)
+  if (fibres.source == scene::FibreSource::file)
     throw polyaffine::InputError("fibres.source: found file, but the anatomy was built without its fibres");
   return helix_fibres(*anatomy.coordinates, tet, barycentric, helix_angles(fibres));
 }
 
-polyaffine::Points tet_fibres(const Anatomy& anatomy, const protocol::Fibres& fibres) {
+polyaffine::Points tet_fibres(const Anatomy& anatomy, const scene::Fibres& fibres) {
   const int tets = anatomy.mesh.num_tets();
   std::vector<int> all(tets);
   std::iota(all.begin(), all.end(), 0);
   return fibres_at(anatomy, fibres, all, Eigen::Matrix4Xd::Constant(4, tets, 0.25)).topRows<3>();
 }
 
-RegionFactors region_factors(const Anatomy& anatomy, const Protocol& protocol,
+RegionFactors region_factors(const Anatomy& anatomy, const Scene& scene,
                              const polyaffine::WallPoints& points) {
   RegionFactors out;
-  if (protocol.regions.empty()) return out;
+  if (scene.regions.empty()) return out;
   const std::size_t n = points.tet.size();
   out.stiffness.assign(n, 1.0);
   out.tension.assign(n, 1.0);
   out.delay_ms.assign(n, 0.0);
   for (std::size_t q = 0; q < n; ++q) {
-    for (const auto& region : protocol.regions) {
+    for (const auto& region : scene.regions) {
       const auto shares =
           shares_at(*anatomy.coordinates, points.tet[q], points.barycentric.col(static_cast<Eigen::Index>(q)),
                     region.border_width_percent / 100);
@@ -107,31 +106,31 @@ RegionFactors region_factors(const Anatomy& anatomy, const Protocol& protocol,
   return out;
 }
 
-std::shared_ptr<const polyaffine::FieldEnergy> build_wall(const Anatomy& anatomy, const Protocol& protocol,
+std::shared_ptr<const polyaffine::FieldEnergy> build_wall(const Anatomy& anatomy, const Scene& scene,
                                                           const Discretisation& discretisation,
                                                           const RegionFactors& factors, BuildCount& built) {
   polyaffine::use_threads();
   auto table = polyaffine::deformation_table(*discretisation.basis, discretisation.points);
   FibreAxes fibres;
-  if (protocol.fibres) {
+  if (scene.fibres) {
     ++built["fibres"];
     const auto& points = discretisation.points;
-    fibres = fibres_at(anatomy, *protocol.fibres, points.tet, points.barycentric);
+    fibres = fibres_at(anatomy, *scene.fibres, points.tet, points.barycentric);
   }
-  const protocol::Tissue& tissue = protocol.tissue;
+  const scene::Tissue& tissue = scene.tissue;
   std::vector<LawPointer> laws{passive_law(tissue, fibres, factors.stiffness)};
-  if (protocol.contraction)
-    laws.push_back(std::make_shared<ActiveStress>(fibres, protocol.contraction->cross_fibre_fraction));
+  if (scene.contraction)
+    laws.push_back(std::make_shared<ActiveStress>(fibres, scene.contraction->cross_fibre_fraction));
 
   std::optional<polyaffine::PressureSpace> pressure;
-  if (tissue.law != protocol::TissueLaw::saint_venant_kirchhoff) {
-    if (discretisation.frame_basis && *protocol.reduction.pressure_space == protocol::PressureSpace::none)
+  if (tissue.law != scene::TissueLaw::saint_venant_kirchhoff) {
+    if (discretisation.frame_basis && *scene.reduction.pressure_space == scene::PressureSpace::none)
       laws.push_back(std::make_shared<polyaffine::QuadraticVolumetric>(tissue.bulk_modulus_kPa));
     else
-      pressure = pressure_space(discretisation, table, protocol);
+      pressure = pressure_space(discretisation, table, scene);
     // What few pressures do not see, local changes of volume, a small part of the bulk modulus keeps in
     // check; less where the wall is softer, which that part would hold back.
-    if (const double local = protocol.reduction.local_bulk_modulus_kPa;
+    if (const double local = scene.reduction.local_bulk_modulus_kPa;
         pressure && discretisation.frame_basis && local > 0) {
       auto factor = apical_factor(anatomy, discretisation, tissue.bulk_modulus_kPa / local);
       for (std::size_t q = 0; q < factors.stiffness.size(); ++q)
@@ -140,7 +139,7 @@ std::shared_ptr<const polyaffine::FieldEnergy> build_wall(const Anatomy& anatomy
       pressure->bulk_modulus -= local;
     }
   }
-  if (tissue.viscosity_kPa_ms > 0 && protocol.contraction)
+  if (tissue.viscosity_kPa_ms > 0 && scene.contraction)
     laws.push_back(std::make_shared<polyaffine::KelvinVoigt>(tissue.viscosity_kPa_ms));
   return std::make_shared<polyaffine::FieldEnergy>(std::move(table), std::move(laws), std::move(pressure));
 }

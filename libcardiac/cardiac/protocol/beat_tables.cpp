@@ -1,3 +1,4 @@
+#include <cardiac/core/units.hpp>
 #include <cardiac/protocol/conditions.hpp>
 #include <cardiac/protocol/key_binding.hpp>
 
@@ -70,10 +71,12 @@ Table contraction_table() {
             .range = {0, 2000},
             .meaning = "asymptotic tension σ0 (see model)",
             .source = "Aróstica 2025: 150; 155 for the peak pressure of a healthy beat"})
-      .key("activation_rate_per_s", &Contraction::activation_rate_per_s,
-           {.unit = "1/s", .range = above_zero(5000), .meaning = "rate a while active", .source = source})
-      .key("relaxation_rate_per_s", &Contraction::relaxation_rate_per_s,
-           {.unit = "1/s", .range = above_zero(1000), .meaning = "rate −a while relaxing", .source = source})
+      .key("activation_rate_per_s", &Contraction::activation_rate_per_ms,
+           {.unit = "1/s", .range = above_zero(5000), .meaning = "rate a while active", .source = source},
+           {1 / ms_per_s})
+      .key("relaxation_rate_per_s", &Contraction::relaxation_rate_per_ms,
+           {.unit = "1/s", .range = above_zero(1000), .meaning = "rate −a while relaxing", .source = source},
+           {1 / ms_per_s})
       .key("activation_duration_ms", &Contraction::activation_duration_ms,
            {.unit = "ms",
             .range = above_zero(5000),
@@ -97,18 +100,20 @@ Table cavities_table() {
   TableBuilder table("cavities", "Prescribed pressure in the cavity; not together with [circulation].",
                      &Protocol::cavities);
   table
-      .key("pressure_mmHg", &Cavities::pressure_mmHg,
+      .key("pressure_mmHg", &Cavities::pressure_kPa,
            {.unit = "mmHg",
             .range = {-100, 1000},
             .meaning = "pressure that is reached from zero, in time.load_steps steps; negative: suction",
-            .required = true})
-      .key("right_pressure_mmHg", &Cavities::right_pressure_mmHg,
+            .required = true},
+           {kPa_per_mmHg})
+      .key("right_pressure_mmHg", &Cavities::right_pressure_kPa,
            {.unit = "mmHg",
             .range = {0, 1000},
             .meaning = "the same in the right ventricle, on a mesh that has one",
             .source = "convention: no load unless it is named",
             .used_with = "anatomy.scheme",
-            .used_values = {"aha29"}});
+            .used_values = {"aha29"}},
+           {kPa_per_mmHg});
   return table.build();
 }
 
@@ -121,57 +126,66 @@ void add_right_circulation(TableBuilder<std::optional<Circulation>>& table) {
     return facts;
   };
   table
-      .key("right_filling_pressure_mmHg", &Circulation::right_filling_pressure_mmHg,
+      .key("right_filling_pressure_mmHg", &Circulation::right_filling_pressure_kPa,
            of_two({.unit = "mmHg",
                    .range = {0, 100},
                    .meaning =
                        "pressure before the tricuspid valve (right atrium) when the first beat begins; with "
                        "two ventricles filling_pressure_mmHg too is only the first value of that before the "
                        "mitral valve",
-                   .source = "normal right atrial pressure, 2 to 6 mmHg"}))
-      .key("tricuspid_resistance_mmHg_s_per_mL", &Circulation::tricuspid_resistance_mmHg_s_per_mL,
+                   .source = "normal right atrial pressure, 2 to 6 mmHg"}),
+           {kPa_per_mmHg})
+      .key("tricuspid_resistance_mmHg_s_per_mL", &Circulation::tricuspid_resistance_kPa_ms_per_mm3,
            of_two({.unit = unit,
                    .range = above_zero(100),
                    .meaning = "resistance of the open tricuspid valve",
-                   .source = "of the order of Regazzoni 2022: 0.0075"}))
-      .key("pulmonary_valve_resistance_mmHg_s_per_mL", &Circulation::pulmonary_valve_resistance_mmHg_s_per_mL,
+                   .source = "of the order of Regazzoni 2022: 0.0075"}),
+           {resistance_per_mmHg_s_per_mL})
+      .key("pulmonary_valve_resistance_mmHg_s_per_mL",
+           &Circulation::pulmonary_valve_resistance_kPa_ms_per_mm3,
            of_two({.unit = unit,
                    .range = above_zero(100),
                    .meaning = "resistance of the open pulmonary valve",
-                   .source = "Regazzoni 2022: 0.0075"}))
+                   .source = "Regazzoni 2022: 0.0075"}),
+           {resistance_per_mmHg_s_per_mL})
       .key("pulmonary_characteristic_resistance_mmHg_s_per_mL",
-           &Circulation::pulmonary_characteristic_resistance_mmHg_s_per_mL,
+           &Circulation::pulmonary_characteristic_resistance_kPa_ms_per_mm3,
            of_two({.unit = unit,
                    .range = {0, 100},
                    .meaning = "resistance between the pulmonary valve and the compliance",
-                   .source = kHealthy}))
+                   .source = kHealthy}),
+           {resistance_per_mmHg_s_per_mL})
       .key("pulmonary_peripheral_resistance_mmHg_s_per_mL",
-           &Circulation::pulmonary_peripheral_resistance_mmHg_s_per_mL,
+           &Circulation::pulmonary_peripheral_resistance_kPa_ms_per_mm3,
            of_two({.unit = unit,
                    .range = above_zero(1000),
                    .meaning = "resistance of the lungs, from the compliance to the pulmonary veins",
-                   .source = "Regazzoni 2022: 0.046 + 0.0015"}))
-      .key("pulmonary_compliance_mL_per_mmHg", &Circulation::pulmonary_compliance_mL_per_mmHg,
+                   .source = "Regazzoni 2022: 0.046 + 0.0015"}),
+           {resistance_per_mmHg_s_per_mL})
+      .key("pulmonary_compliance_mL_per_mmHg", &Circulation::pulmonary_compliance_mm3_per_kPa,
            of_two({.unit = "mL/mmHg",
                    .range = above_zero(200),
                    .meaning = "compliance of the pulmonary arteries",
-                   .source = std::string(kHealthy) + "; Regazzoni 2022: 20"}))
-      .key("pulmonary_venous_compliance_mL_per_mmHg", &Circulation::pulmonary_venous_compliance_mL_per_mmHg,
+                   .source = std::string(kHealthy) + "; Regazzoni 2022: 20"}),
+           {kPa_per_mmHg})
+      .key("pulmonary_venous_compliance_mL_per_mmHg", &Circulation::pulmonary_venous_compliance_mm3_per_kPa,
            of_two({.unit = "mL/mmHg",
                    .range = above_zero(500),
                    .meaning = "compliance of the pulmonary veins and the left atrium",
-                   .source = "Regazzoni 2022: 16"}))
-      .key("systemic_venous_compliance_mL_per_mmHg", &Circulation::systemic_venous_compliance_mL_per_mmHg,
+                   .source = "Regazzoni 2022: 16"}),
+           {kPa_per_mmHg})
+      .key("systemic_venous_compliance_mL_per_mmHg", &Circulation::systemic_venous_compliance_mm3_per_kPa,
            of_two({.unit = "mL/mmHg",
                    .range = above_zero(500),
                    .meaning = "compliance of the systemic veins and the right atrium",
-                   .source = std::string(kHealthy) + "; Regazzoni 2022: 11.4"}))
-      .key(
-          "initial_pulmonary_pressure_mmHg", &Circulation::initial_pulmonary_pressure_mmHg,
-          of_two({.unit = "mmHg",
-                  .range = {0, 300},
-                  .meaning = "pressure of the pulmonary compliance when the first beat begins",
-                  .source = "near the limit cycle of the default heart; counts to the volume of the blood"}));
+                   .source = std::string(kHealthy) + "; Regazzoni 2022: 11.4"}),
+           {kPa_per_mmHg})
+      .key("initial_pulmonary_pressure_mmHg", &Circulation::initial_pulmonary_pressure_kPa,
+           of_two({.unit = "mmHg",
+                   .range = {0, 300},
+                   .meaning = "pressure of the pulmonary compliance when the first beat begins",
+                   .source = "near the limit cycle of the default heart; counts to the volume of the blood"}),
+           {kPa_per_mmHg});
 }
 
 Table circulation_table() {
@@ -181,55 +195,64 @@ Table circulation_table() {
                      "Valves, arteries and veins around the cavity: a three-element windkessel.",
                      &Protocol::circulation);
   table
-      .key("filling_pressure_mmHg", &Circulation::filling_pressure_mmHg,
+      .key("filling_pressure_mmHg", &Circulation::filling_pressure_kPa,
            {.unit = "mmHg",
             .range = {0, 100},
             .meaning = "pressure before the mitral valve (atrium)",
-            .source = "normal left atrial and end-diastolic pressure, 4 to 12 mmHg"})
-      .key("mitral_resistance_mmHg_s_per_mL", &Circulation::mitral_resistance_mmHg_s_per_mL,
+            .source = "normal left atrial and end-diastolic pressure, 4 to 12 mmHg"},
+           {kPa_per_mmHg})
+      .key("mitral_resistance_mmHg_s_per_mL", &Circulation::mitral_resistance_kPa_ms_per_mm3,
            {.unit = unit,
             .range = above_zero(100),
             .meaning = "resistance of the open mitral valve",
-            .source = "of the order of Regazzoni 2022: 0.0075"})
-      .key("aortic_valve_resistance_mmHg_s_per_mL", &Circulation::aortic_valve_resistance_mmHg_s_per_mL,
+            .source = "of the order of Regazzoni 2022: 0.0075"},
+           {resistance_per_mmHg_s_per_mL})
+      .key("aortic_valve_resistance_mmHg_s_per_mL", &Circulation::aortic_valve_resistance_kPa_ms_per_mm3,
            {.unit = unit,
             .range = above_zero(100),
             .meaning = "resistance of the open aortic valve",
-            .source = "Regazzoni 2022: 0.0075"})
-      .key("aortic_leak_resistance_mmHg_s_per_mL", &Circulation::aortic_leak_resistance_mmHg_s_per_mL,
+            .source = "Regazzoni 2022: 0.0075"},
+           {resistance_per_mmHg_s_per_mL})
+      .key("aortic_leak_resistance_mmHg_s_per_mL", &Circulation::aortic_leak_resistance_kPa_ms_per_mm3,
            {.unit = unit,
             .range = above_zero(1000),
             .meaning = "resistance of the closed aortic valve to backward flow (regurgitation)",
-            .absent = "the valve is tight"})
-      .key("characteristic_resistance_mmHg_s_per_mL", &Circulation::characteristic_resistance_mmHg_s_per_mL,
+            .absent = "the valve is tight"},
+           {resistance_per_mmHg_s_per_mL})
+      .key("characteristic_resistance_mmHg_s_per_mL", &Circulation::characteristic_resistance_kPa_ms_per_mm3,
            {.unit = unit,
             .range = {0, 100},
             .meaning = "resistance between the aortic valve and the compliance (proximal aorta)",
-            .source = source})
-      .key("peripheral_resistance_mmHg_s_per_mL", &Circulation::peripheral_resistance_mmHg_s_per_mL,
+            .source = source},
+           {resistance_per_mmHg_s_per_mL})
+      .key("peripheral_resistance_mmHg_s_per_mL", &Circulation::peripheral_resistance_kPa_ms_per_mm3,
            {.unit = unit,
             .range = above_zero(1000),
             .meaning = "resistance of the small vessels, from the compliance to the veins",
-            .source = source})
-      .key("compliance_mL_per_mmHg", &Circulation::compliance_mL_per_mmHg,
+            .source = source},
+           {resistance_per_mmHg_s_per_mL})
+      .key("compliance_mL_per_mmHg", &Circulation::compliance_mm3_per_kPa,
            {.unit = "mL/mmHg",
             .range = above_zero(1e4),
             .meaning = "compliance of the arteries",
-            .source = "Regazzoni 2022: 1.372"})
-      .key("venous_pressure_mmHg", &Circulation::venous_pressure_mmHg,
+            .source = "Regazzoni 2022: 1.372"},
+           {kPa_per_mmHg})
+      .key("venous_pressure_mmHg", &Circulation::venous_pressure_kPa,
            {.unit = "mmHg",
             .range = {0, 100},
             .meaning = "pressure behind the small vessels",
             .source = "normal central venous pressure, 2 to 8 mmHg",
             .used_with = "anatomy.scheme",
-            .used_values = {"aha17"}})
-      .key("initial_aortic_pressure_mmHg", &Circulation::initial_aortic_pressure_mmHg,
+            .used_values = {"aha17"}},
+           {kPa_per_mmHg})
+      .key("initial_aortic_pressure_mmHg", &Circulation::initial_aortic_pressure_kPa,
            {.unit = "mmHg",
             .range = {0, 300},
             .meaning = "pressure of the compliance when the first beat begins",
             .source =
                 "near the limit cycle of the default heart; with two ventricles it counts to the volume of "
-                "the blood, with one the limit cycle does not depend on it"});
+                "the blood, with one the limit cycle does not depend on it"},
+           {kPa_per_mmHg});
   add_right_circulation(table);
   return table.build();
 }
@@ -242,20 +265,31 @@ Table boundary_table() {
       .key("epicardial_stiffness_kPa_per_mm", &Boundary::epicardial_stiffness_kPa_per_mm,
            {.unit = "kPa/mm",
             .range = {0, 1e6},
-            .meaning = "spring of the pericardium per reference area, along the reference normal; 0: none",
-            .source = "convention: nothing that is not asked for"});
+            .meaning = "springs of the pericardium per reference area; 0: none",
+            .source = "convention: nothing that is not asked for"})
+      .key("epicardial_damping_kPa_ms_per_mm", &Boundary::epicardial_damping_kPa_ms_per_mm,
+           {.unit = "kPa·ms/mm",
+            .range = {0, 1e6},
+            .meaning = "dashpots of the pericardium per reference area; 0: none",
+            .source = "convention: nothing that is not asked for; Pfaller 2019: 0.005",
+            .also = {contracts()}})
+      .key("epicardial_directions", &Boundary::epicardial_directions,
+           {.meaning = "normal: springs and dashpots act along the reference normal, so that the heart may "
+                       "slide and turn; all: in all directions",
+            .source = "Pfaller 2019: normal"});
   return table.build();
 }
 
 Table time_table() {
   TableBuilder table("time", "Beats, steps and tolerances.", &Protocol::time);
   table
-      .key("heart_rate_bpm", &Time::heart_rate_bpm,
+      .key("heart_rate_bpm", &Time::beat_ms,
            {.unit = "1/min",
             .range = {20, 300},
             .meaning = "heart rate; a beat lasts 60000/heart_rate_bpm ms, with a circulation and without",
             .source = "Regazzoni 2022: 75",
-            .also = {contracts()}})
+            .also = {contracts()}},
+           {ms_per_min, true})
       .key("max_beats", &Time::max_beats,
            {.range = {1, 200},
             .meaning = "beats after which the run ends even if the loop has not closed",
@@ -281,12 +315,13 @@ Table time_table() {
             .meaning = "absolute tolerance of the displacement in the time integration",
             .source = kMeasured,
             .also = {contracts()}})
-      .key("absolute_tolerance_mmHg", &Time::absolute_tolerance_mmHg,
+      .key("absolute_tolerance_mmHg", &Time::absolute_tolerance_kPa,
            {.unit = "mmHg",
             .range = {1e-10, 10},
             .meaning = "absolute tolerance of pressures in the time integration",
             .source = kMeasured,
-            .also = {beats()}})
+            .also = {beats()}},
+           {kPa_per_mmHg})
       .key("max_step_ms", &Time::max_step_ms,
            {.unit = "ms",
             .range = {0.01, 1000},

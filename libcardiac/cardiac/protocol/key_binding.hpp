@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdio>
+#include <cstdlib>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -71,12 +73,29 @@ Json to_json(const T& value) {
   }
 }
 
+/// From the unit of a key to that of the scene: scene = key · factor, or factor / key.
+struct Units {
+  double factor = 1;
+  bool inverse = false;
+
+  double to_scene(double value) const { return inverse ? factor / value : value * factor; }
+  /// Rounded to the 15 digits that survive the way there and back.
+  double to_key(double value) const {
+    const double exact = inverse ? factor / value : value / factor;
+    char text[32];
+    std::snprintf(text, sizeof text, "%.15g", exact);
+    return factor == 1 && !inverse ? value : std::strtod(text, nullptr);
+  }
+};
+
 /// Builds the keys of one table whose values live in the struct S, held by Protocol plainly, as an optional
 /// or as a list.
 template <class Held>
 class TableBuilder {
  public:
-  TableBuilder(std::string name, std::string meaning, Held Protocol::*held) : held_(held) {
+  template <class Part>
+  TableBuilder(std::string name, std::string meaning, Held Part::*part) : held_(part) {
+    Held Protocol::*held = part;
     table_.name = std::move(name);
     table_.meaning = std::move(meaning);
     table_.optional = Unwrapped<Held>::optional;
@@ -86,21 +105,27 @@ class TableBuilder {
   }
 
   template <class S, class T>
-  TableBuilder& key(std::string name, T S::*member, KeyFacts facts) {
+  TableBuilder& key(std::string name, T S::*member, KeyFacts facts, Units units = {}) {
     using Value = typename Unwrapped<T>::type;
     Key row{std::move(name), kind_of<Value>(), {}, std::move(facts), {}, {}};
     if constexpr (std::is_enum_v<Value>) {
       for (const auto& word : names_of(Value{})) row.choices.emplace_back(word);
     }
-    row.set = [held = held_, member](Protocol& protocol, std::size_t entry, const Json& value) {
-      opened(protocol.*held, entry).*member = from_json<Value>(value);
+    row.set = [held = held_, member, units](Protocol& protocol, std::size_t entry, const Json& value) {
+      Value read = from_json<Value>(value);
+      if constexpr (std::is_same_v<Value, double>) read = units.to_scene(read);
+      opened(protocol.*held, entry).*member = std::move(read);
     };
-    row.get = [held = held_, member](const Protocol& protocol, std::size_t entry) -> Json {
+    row.get = [held = held_, member, units](const Protocol& protocol, std::size_t entry) -> Json {
+      const auto told = [&](const Value& value) -> Json {
+        if constexpr (std::is_same_v<Value, double>) return units.to_key(value);
+        return to_json(value);
+      };
       const T& value = viewed(protocol.*held, entry).*member;
       if constexpr (Unwrapped<T>::optional) {
-        return value ? to_json(*value) : Json();
+        return value ? told(*value) : Json();
       } else {
-        return to_json(value);
+        return told(value);
       }
     };
     table_.keys.push_back(std::move(row));
@@ -157,5 +182,8 @@ class TableBuilder {
   Table table_;
   Held Protocol::*held_;
 };
+
+template <class Held, class Part>
+TableBuilder(std::string, std::string, Held Part::*) -> TableBuilder<Held>;
 
 }  // namespace cardiac::protocol

@@ -307,6 +307,14 @@ Table tissue_table() {
             .range = {0, 1e5},
             .meaning = "viscosity η of the second Piola–Kirchhoff stress S = η dE/dt",
             .source = "Aróstica 2025: 100 Pa·s",
+            .also = {contracts()}})
+      .key("density_g_per_mL", &Tissue::density_mg_per_mm3,
+           {.unit = "g/mL",
+            .range = {0, 100},
+            .meaning =
+                "mass of the wall per volume, for its inertia; 0: the wall has none, as slow as a heart "
+                "moves; muscle has 1.06",
+            .source = "convention: nothing that is not asked for; Mendez & Keys 1960: 1.06",
             .also = {contracts()}});
   return table.build();
 }

@@ -57,6 +57,9 @@ constexpr Names<1> names_of(ContractionModel) {
 constexpr Names<1> names_of(Base) {
   return {"clamped"};
 }
+constexpr Names<1> names_of(SupportDirections) {
+  return {"normal", "all"};
+}
 
 /// The word of one value, for instance "polyaffine" for Method::polyaffine.
 template <class Enum>

@@ -188,7 +188,7 @@ Protocol parse_protocol(const std::string& text, const std::filesystem::path& so
   fill_presets(protocol);
   const Entry local{"reduction", 0, "local_bulk_modulus_kPa", {}, {}, {}};
   if (std::ranges::none_of(entries, [&](const Entry& entry) { return entry.same_place(local); }))
-    raise_local_bulk_modulus(protocol);
+    raise_local_bulk_modulus(protocol.anatomy.scheme == Scheme::aha29, protocol);
   warn_of_limits(protocol, place);
   warn_of_unused(protocol, entries);
   return protocol;

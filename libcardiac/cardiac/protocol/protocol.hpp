@@ -9,22 +9,11 @@
 
 namespace cardiac {
 
-/// What a run shall do, read from a TOML file: checked, defaults filled in, each number in the unit of its
-/// name. A table that is absent in an optional member means that the part is not built.
-struct Protocol {
+/// A scene as a text (TOML) tells it, with the mesh that it names: checked, defaults filled in, every number
+/// in the units of a scene. `heart` is empty until the mesh has been read.
+struct Protocol : Scene {
   protocol::Mesh mesh;
   protocol::Anatomy anatomy;
-  protocol::Reduction reduction;
-  protocol::Tissue tissue;
-  std::optional<protocol::Fibres> fibres;
-  std::optional<protocol::Activation> activation;
-  std::optional<protocol::Contraction> contraction;
-  std::optional<protocol::Cavities> cavities;
-  std::optional<protocol::Circulation> circulation;
-  protocol::Boundary boundary;
-  protocol::Time time;
-  protocol::Output output;
-  std::vector<protocol::RegionOverride> regions;
 
   std::filesystem::path directory;    ///< of the protocol file; mesh.file is relative to it
   std::vector<std::string> warnings;  ///< keys that were given but play no part, each with its reason

@@ -6,10 +6,11 @@
 #include <set>
 #include <sstream>
 
-#include <cardiac/protocol/contraction_time.hpp>
+#include <cardiac/core/units.hpp>
 #include <cardiac/protocol/names.hpp>
 #include <cardiac/protocol/nearest_key.hpp>
 #include <cardiac/protocol/rules.hpp>
+#include <cardiac/scene/contraction_time.hpp>
 #include <polyaffine/core/error.hpp>
 
 namespace cardiac::protocol {
@@ -97,9 +98,6 @@ void check_rings(const Reduction& reduction, const Place& place) {
 }
 
 // Tents about the middles of the AHA segments.
-bool aha_tents(const Reduction& reduction) {
-  return reduction.ring_nodes == Reduction().ring_nodes && !reduction.ring_angles_deg &&
-         reduction.weights == Weights::tents;
 }
 
 void check_reduction(const Reduction& reduction, const Place& place) {
@@ -154,14 +152,14 @@ void check_activity(const Protocol& protocol, const Place& place) {
 // Contraction and relaxation must fit into a beat.
 void check_contraction_time(const Protocol& protocol, const Place& place) {
   if (!protocol.contraction) return;
-  const double beat = beat_ms(protocol.time);
+  const double beat = protocol.time.beat_ms;
   try {
     check_contraction(bestel_parameters(*protocol.contraction, protocol.time), beat);
   } catch (const InputError& error) {
     std::ostringstream text;
     text << "found " << activation_duration_ms(*protocol.contraction, protocol.time)
          << " ms, expected less than fills a beat, which lasts " << beat
-         << " ms at time.heart_rate_bpm = " << protocol.time.heart_rate_bpm
+         << " ms at time.heart_rate_bpm = " << ms_per_min / protocol.time.beat_ms
          << " (without the key systole follows the rate): " << error.what();
     fail(place, "contraction.activation_duration_ms", text.str());
   }
@@ -211,47 +209,10 @@ void check_regions(const std::vector<RegionOverride>& regions, Scheme scheme, co
 
 }  // namespace
 
-bool region_differs(const Protocol& protocol, const RegionOverride& region) {
-  return region.stiffness_factor != 1 ||
-         (protocol.contraction && (region.tension_factor != 1 || region.activation_delay_ms != 0));
-}
-
-bool regions_differ(const Protocol& protocol) {
-  return std::ranges::any_of(protocol.regions,
-                             [&](const RegionOverride& r) { return region_differs(protocol, r); });
-}
-
 void fill_scheme(Protocol& protocol) {
   std::optional<Scheme>& scheme = protocol.anatomy.scheme;
   protocol.scheme_assumed = !scheme && !protocol.mesh.shape;
   if (!scheme) scheme = protocol.mesh.shape == Shape::human_biventricle ? Scheme::aha29 : Scheme::aha17;
-}
-
-// Tension stiffens muscle, several times over the passive wall. With two ventricles more is worse: the coarse
-// one is 11.7 % of displacement off in filling and 13.2 % in systole with 6 kPa, 13.6 % both with 20.
-void raise_local_bulk_modulus(Protocol& protocol) {
-  constexpr double kContracting_kPa = 20, kShare = 0.1;
-  double& local = protocol.reduction.local_bulk_modulus_kPa;
-  if (protocol.contraction && protocol.anatomy.scheme == Scheme::aha17)
-    local = std::max(local, std::min(kContracting_kPa, kShare * protocol.tissue.bulk_modulus_kPa));
-}
-
-void fill_presets(Protocol& protocol) {
-  Reduction& reduction = protocol.reduction;
-  const bool fast = reduction.preset == Preset::fast;
-  const bool contrast = !fast && regions_differ(protocol);
-  using Words = std::vector<std::string>;
-  if (!reduction.enrichment) {
-    Words words = fast ? Words{"tt", "lt"} : Words{"tt", "lt", "ct", "ltt", "ttt", "ll"};
-    if (contrast) words.insert(words.end(), {"lc", "cc"});
-    reduction.enrichment = std::move(words);
-  }
-  if (!reduction.pressure_space) {
-    reduction.pressure_space = fast ? PressureSpace::segment_depth : PressureSpace::segment_bilinear;
-  }
-  if (!reduction.border_functions) reduction.border_functions = contrast && aha_tents(reduction);
-  if (auto& contraction = protocol.contraction)
-    contraction->activation_duration_ms = activation_duration_ms(*contraction, protocol.time);
 }
 
 void warn_of_limits(Protocol& protocol, const Place& place) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include <cardiac/protocol/protocol.hpp>
+#include <cardiac/scene/presets.hpp>
 
 namespace cardiac::protocol {
 
@@ -14,22 +15,8 @@ using Place = std::function<std::string(const std::string& path)>;
 /// Protocol::scheme_assumed.
 void fill_scheme(Protocol& protocol);
 
-/// The presets, written out: enrichment and pressure space that the file does not name, and the duration of
-/// the contraction by the heart rate. The accurate preset has more functions along the wall where regions
-/// differ.
-void fill_presets(Protocol& protocol);
-
-/// The local bulk modulus of a protocol that does not name one: more where the muscle of one ventricle
-/// contracts.
-void raise_local_bulk_modulus(Protocol& protocol);
-
 /// Adds warnings about values that are allowed and lead beyond what the reduced model can tell.
 void warn_of_limits(Protocol& protocol, const Place& place);
-
-/// Does some [[region]] move otherwise than the rest: another stiffness or, where something contracts,
-/// another tension or time?
-bool regions_differ(const Protocol& protocol);
-bool region_differs(const Protocol& protocol, const RegionOverride& region);
 
 /// What a single key cannot tell: keys that need, exclude or contradict one another. Throws
 /// polyaffine::InputError at the first violation.

@@ -25,9 +25,9 @@ double radial_misfit_deg(const Anatomy& anatomy) {
   return std::sqrt(squares / volume) * 180 / polyaffine::kPi;
 }
 
-protocol::Axes axes_of(const Anatomy& anatomy, const Protocol& protocol, std::vector<std::string>& warnings) {
-  using protocol::Axes;
-  const Axes asked = protocol.reduction.axes;
+scene::Axes axes_of(const Anatomy& anatomy, const Scene& scene, std::vector<std::string>& warnings) {
+  using scene::Axes;
+  const Axes asked = scene.reduction.axes;
   if (asked == Axes::cartesian) return asked;
   if (asked == Axes::automatic && anatomy.coordinates->right() != nullptr) return Axes::cartesian;
   const double misfit = radial_misfit_deg(anatomy);

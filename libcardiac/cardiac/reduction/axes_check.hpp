@@ -18,9 +18,9 @@ double radial_misfit_deg(const Anatomy& anatomy);
 /// papillary muscles 13 (270 and 9 %).
 inline constexpr double kTurningAxes_deg = 5;
 
-/// The axes that a protocol's reduced model with tents has on a wall: those it asks for; `automatic` heart
+/// The axes that a scene's reduced model with tents has on a wall: those it asks for; `automatic` heart
 /// axes, or Cartesian ones where they turn too fast or there are two ventricles. What there is to tell about
 /// that is added to the warnings.
-protocol::Axes axes_of(const Anatomy& anatomy, const Protocol& protocol, std::vector<std::string>& warnings);
+scene::Axes axes_of(const Anatomy& anatomy, const Scene& scene, std::vector<std::string>& warnings);
 
 }  // namespace cardiac

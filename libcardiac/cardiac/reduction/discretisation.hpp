@@ -5,39 +5,14 @@
 #include <optional>
 #include <vector>
 
-#include <cardiac/protocol/protocol.hpp>
 #include <cardiac/reduction/segment_frames.hpp>
+#include <cardiac/scene/scene.hpp>
 #include <cardiac/tissue/fibre_axes.hpp>
 #include <polyaffine/kinematics/basis.hpp>
 #include <polyaffine/linear/linear_system.hpp>
 #include <polyaffine/system/pressure_space.hpp>
 
 namespace cardiac {
-
-/// Axes f, s, n at points of a wall with these coordinates.
-using FibreFunction =
-    std::function<FibreAxes(const VentricularCoordinates& coordinates, const std::vector<int>& tet,
-                            const Eigen::Matrix4Xd& barycentric)>;
-
-/// The mesh with its coordinates and segments: what every method starts from.
-struct Anatomy {
-  polyaffine::TetMesh mesh;
-  SurfaceLabels labels;
-  std::shared_ptr<const VentricularCoordinates> coordinates;
-  std::vector<int> segment;  ///< AHA segment of each tet
-  FibreFunction fibres;      ///< empty: the protocol's rule in the ventricular coordinates
-};
-
-/// What is known of a wall beyond its mesh.
-struct ExactGeometry {
-  std::optional<polyaffine::EdgeMidpoints> midpoints;  ///< absent: smooth_midpoints of the mesh
-  FibreFunction fibres;                                ///< see Anatomy
-};
-
-/// The boundary of the mesh carries the labels kEndocardium, kEpicardium and kBase, with two ventricles also
-/// kRvEndocardium. Throws InputError as its coordinates and its segments do, and when the protocol's scheme
-/// is for another number of ventricles.
-Anatomy build_anatomy(polyaffine::TetMesh mesh, const Protocol& protocol, const ExactGeometry& exact = {});
 
 /// The surface of a cavity: its points, tangents turned so that X_ξ × X_η leaves the cavity, and the centre
 /// of its base, mm.
@@ -64,18 +39,18 @@ struct Discretisation {
   bool sparse = false;
 };
 
-/// Where the control frames of a protocol's reduction sit. Throws InputError as frame_layout.
-FrameLayout protocol_layout(const Anatomy& anatomy, const Protocol& protocol);
+/// Where the control frames of a scene's reduction sit. Throws InputError as frame_layout.
+FrameLayout frame_layout_of(const Anatomy& anatomy, const Scene& scene);
 
-/// The reduced model: control frames of the layout with the functions that the protocol's reduction names.
+/// The reduced model: control frames of the layout with the functions that the scene's reduction names.
 /// Weights are tents in the ventricular coordinates (SegmentFrames), or sigmoids of the geodesic distance to
 /// the border of each region (polyaffine::RegionFrames) about the deepest vertex of the region; the latter
 /// are clamped by the factor d = s (2 − s), s = (1 − u)/(1 − u_b), from 0 at the base (u = 1) to 1 at the
 /// last ring u_b. With sigmoid weights the anatomy must outlive the result. Throws InputError when a region
 /// has no interior vertex, or as frame_layout.
-Discretisation reduced_discretisation(const Anatomy& anatomy, const Protocol& protocol);
+Discretisation reduced_discretisation(const Anatomy& anatomy, const Scene& scene);
 /// Linear or quadratic finite elements on the whole mesh.
-Discretisation full_discretisation(const Anatomy& anatomy, const Protocol& protocol);
+Discretisation full_discretisation(const Anatomy& anatomy, const Scene& scene);
 
 /// Rule of a face, told its tet and its corners.
 using FaceRule =
@@ -85,13 +60,12 @@ using FaceRule =
 /// strains, so that nothing would resist some motion), or when a reduced model has more than 12 000 unknowns.
 void check_size(const Discretisation& discretisation);
 
-/// Adds the points of the surfaces on which the protocol has loads or springs.
-void add_surface_points(const Anatomy& anatomy, const Protocol& protocol,
-                        const polyaffine::LagrangeBasis& geometry, const FaceRule& rule,
-                        Discretisation& discretisation);
+/// Adds the points of the surfaces on which the scene has loads or springs.
+void add_surface_points(const Anatomy& anatomy, const Scene& scene, const polyaffine::LagrangeBasis& geometry,
+                        const FaceRule& rule, Discretisation& discretisation);
 
 /// The pressure space of a discretisation, over the points of its deformation table.
 polyaffine::PressureSpace pressure_space(const Discretisation& discretisation,
-                                         const polyaffine::FieldTable& table, const Protocol& protocol);
+                                         const polyaffine::FieldTable& table, const Scene& scene);
 
 }  // namespace cardiac

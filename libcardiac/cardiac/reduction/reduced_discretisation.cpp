@@ -23,9 +23,9 @@ using polyaffine::Vector;
 
 namespace {
 
-std::vector<Monomial> monomials(const Protocol& protocol) {
+std::vector<Monomial> monomials(const Scene& scene) {
   auto out = polyaffine::affine_monomials();
-  for (const auto& name : *protocol.reduction.enrichment) {
+  for (const auto& name : *scene.reduction.enrichment) {
     const Monomial m = polyaffine::parse_monomial(name);
     if (std::find(out.begin(), out.end(), m) == out.end()) out.push_back(m);
   }
@@ -82,15 +82,15 @@ std::vector<FrameFunctions> tent_functions(const SegmentFrames& frames, const st
 
 // Tent weights. Pressures do without the frames at the base, where nothing holds them; border functions are
 // further frames with the function 1 alone, in the same axes.
-void add_tent_basis(const Anatomy& anatomy, const Protocol& protocol, Discretisation& out) {
+void add_tent_basis(const Anatomy& anatomy, const Scene& scene, Discretisation& out) {
   out.frames = tent_frames(anatomy, out.layout, true);
   out.pressure_frames = tent_frames(anatomy, out.layout, false);
   std::vector<std::string> told_with_the_result;
-  const bool heart_axes = axes_of(anatomy, protocol, told_with_the_result) == protocol::Axes::heart;
-  auto functions = tent_functions(*out.frames, monomials(protocol), heart_axes);
+  const bool heart_axes = axes_of(anatomy, scene, told_with_the_result) == scene::Axes::heart;
+  auto functions = tent_functions(*out.frames, monomials(scene), heart_axes);
   std::shared_ptr<const polyaffine::FrameField> frames = out.frames;
-  if (*protocol.reduction.border_functions) {
-    frames = std::make_shared<BorderFrames>(out.frames, segment_kinds(protocol));
+  if (*scene.reduction.border_functions) {
+    frames = std::make_shared<BorderFrames>(out.frames, segment_kinds(scene));
     functions.resize(frames->num_frames(), {{{0, 0, 0}}, heart_axes});
   }
   out.frame_basis = std::make_shared<polyaffine::FrameBasis>(frames, functions);
@@ -102,7 +102,7 @@ Vector clamp_factor(const VentricularCoordinates& coordinates, double basal_ring
   return s.array() * (2 - s.array());
 }
 
-void add_sigmoid_basis(const Anatomy& anatomy, const Protocol& protocol, Discretisation& out) {
+void add_sigmoid_basis(const Anatomy& anatomy, const Scene& scene, Discretisation& out) {
   const polyaffine::TetMesh& mesh = anatomy.mesh;
   const int n = out.layout.num_nodes();
   const polyaffine::Matrix distances =
@@ -117,48 +117,48 @@ void add_sigmoid_basis(const Anatomy& anatomy, const Protocol& protocol, Discret
     nodes[i] = {mesh.points().col(deepest), orthonormal_axes(at)};
   }
   const auto weights = std::make_shared<polyaffine::RegionWeights>(
-      mesh, distances, polyaffine::RegionWeightOptions{.sharpness = protocol.reduction.sigmoid_slope});
+      mesh, distances, polyaffine::RegionWeightOptions{.sharpness = scene.reduction.sigmoid_slope});
   const std::shared_ptr<const LagrangeBasis> geometry(anatomy.coordinates, &anatomy.coordinates->space());
   const auto frames = std::make_shared<polyaffine::RegionFrames>(
       geometry, weights, nodes, out.layout.length,
       clamp_factor(*anatomy.coordinates, out.layout.rings.back().u));
   out.pressure_frames = std::make_shared<polyaffine::RegionFrames>(frames->without_clamp());
   out.frame_basis = std::make_shared<polyaffine::FrameBasis>(
-      frames, std::vector<FrameFunctions>(n, {monomials(protocol), false}));
+      frames, std::vector<FrameFunctions>(n, {monomials(scene), false}));
 }
 
 }  // namespace
 
-FrameLayout protocol_layout(const Anatomy& anatomy, const Protocol& protocol) {
-  const auto& reduction = protocol.reduction;
+FrameLayout frame_layout_of(const Anatomy& anatomy, const Scene& scene) {
+  const auto& reduction = scene.reduction;
   RingOptions options{reduction.ring_nodes, reduction.ring_positions.value_or(std::vector<double>{}),
                       reduction.ring_angles_deg.value_or(std::vector<double>{})};
   for (double& angle : options.angles) angle *= polyaffine::kPi / 180;
   return frame_layout(anatomy.mesh, *anatomy.coordinates, options);
 }
 
-Discretisation reduced_discretisation(const Anatomy& anatomy, const Protocol& protocol) {
+Discretisation reduced_discretisation(const Anatomy& anatomy, const Scene& scene) {
   Discretisation out;
-  out.layout = protocol_layout(anatomy, protocol);
+  out.layout = frame_layout_of(anatomy, scene);
   out.region = region_tets(anatomy.mesh, *anatomy.coordinates, out.layout);
-  const bool sigmoid = protocol.reduction.weights == protocol::Weights::sigmoid;
-  (sigmoid ? add_sigmoid_basis : add_tent_basis)(anatomy, protocol, out);
+  const bool sigmoid = scene.reduction.weights == scene::Weights::sigmoid;
+  (sigmoid ? add_sigmoid_basis : add_tent_basis)(anatomy, scene, out);
   out.basis = out.frame_basis;
   out.num_unknowns = 3 * out.basis->num_functions();
   out.fixed.assign(out.num_unknowns, 0);
 
-  add_reduced_points(anatomy, protocol, out);
+  add_reduced_points(anatomy, scene, out);
   return out;
 }
 
 polyaffine::PressureSpace pressure_space(const Discretisation& discretisation,
-                                         const polyaffine::FieldTable& table, const Protocol& protocol) {
-  const double kappa = protocol.tissue.bulk_modulus_kPa;
+                                         const polyaffine::FieldTable& table, const Scene& scene) {
+  const double kappa = scene.tissue.bulk_modulus_kPa;
   if (!discretisation.frame_basis) return polyaffine::block_pressure(table, kappa);
 
-  using Space = protocol::PressureSpace;
+  using Space = scene::PressureSpace;
   const auto& points = discretisation.points;
-  const Space space = *protocol.reduction.pressure_space;
+  const Space space = *scene.reduction.pressure_space;
   if (space == Space::segment) {
     std::vector<int> region;
     for (const int t : points.tet) region.push_back(discretisation.region[t]);

@@ -33,9 +33,9 @@ std::vector<int> every_segment() {
 
 // Segments that have cells of their own. Where training chooses among the points, every segment has: they
 // have to serve any scar.
-std::vector<int> kinds_of_points(const Protocol& protocol) {
-  const bool trained = protocol.reduction.integration == protocol::Integration::trained;
-  return trained ? every_segment() : segment_kinds(protocol);
+std::vector<int> kinds_of_points(const Scene& scene) {
+  const bool trained = scene.reduction.integration == scene::Integration::trained;
+  return trained ? every_segment() : segment_kinds(scene);
 }
 
 WallPoints subset(const WallPoints& points, const std::vector<int>& which) {
@@ -92,13 +92,13 @@ WallPoints wall_points_of_regions(const VentricularCoordinates& heart, const Dis
 
 }  // namespace
 
-std::vector<int> segment_kinds(const Protocol& protocol) {
+std::vector<int> segment_kinds(const Scene& scene) {
   using Factors = std::array<double, 3>;
   std::vector<Factors> found{{1, 1, 0}};
   std::vector<int> out(kBothSegments, 0);
-  for (const auto& region : protocol.regions) {
+  for (const auto& region : scene.regions) {
     Factors factors{region.stiffness_factor, 1, 0};
-    if (protocol.contraction)
+    if (scene.contraction)
       factors = {region.stiffness_factor, region.tension_factor, region.activation_delay_ms};
     const auto place = std::find(found.begin(), found.end(), factors) - found.begin();
     if (place == std::ssize(found)) found.push_back(factors);
@@ -107,21 +107,21 @@ std::vector<int> segment_kinds(const Protocol& protocol) {
   return out;
 }
 
-void add_reduced_points(const Anatomy& anatomy, const Protocol& protocol, Discretisation& out) {
+void add_reduced_points(const Anatomy& anatomy, const Scene& scene, Discretisation& out) {
   const VentricularCoordinates& heart = *anatomy.coordinates;
-  const bool all_points = protocol.reduction.integration == protocol::Integration::gauss;
+  const bool all_points = scene.reduction.integration == scene::Integration::gauss;
   const bool sigmoid = out.frames == nullptr;
   const PointCounts counts = point_counts(*out.frame_basis, out.layout, sigmoid);
   if (sigmoid) {
     const CandidatePoints candidates = plain_candidates(heart.space());
     out.points = wall_points_of_regions(heart, out, counts.exact, candidates.wall, all_points);
-    add_surface_points(anatomy, protocol, heart.space(), candidates.face, out);
+    add_surface_points(anatomy, scene, heart.space(), candidates.face, out);
     set_surface_points_of_regions(heart, counts, out);
   } else {
-    const SegmentCells cells(out.frames, kinds_of_points(protocol));
+    const SegmentCells cells(out.frames, kinds_of_points(scene));
     const CandidatePoints candidates = split_candidates(heart, cells);
     out.points = wall_points_of_tents(cells, counts, candidates.wall, all_points);
-    add_surface_points(anatomy, protocol, heart.space(), candidates.face, out);
+    add_surface_points(anatomy, scene, heart.space(), candidates.face, out);
     set_surface_points_of_tents(cells, counts, heart.space(), out);
   }
 }

@@ -13,69 +13,28 @@
 #include "cardiac/run/statics.hpp"
 
 #include <cardiac/core/units.hpp>
+#include <cardiac/scene/loops.hpp>
 #include <polyaffine/core/error.hpp>
 
 namespace cardiac {
 
 using polyaffine::Vector;
 
-LeftHeartLoop left_heart_loop(const protocol::Circulation& c) {
-  LeftHeartLoop loop;
-  loop.filling_pressure_kPa = c.filling_pressure_mmHg * kPa_per_mmHg;
-  loop.mitral.resistance_kPa_ms_per_mm3 = c.mitral_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL;
-  loop.aortic.resistance_kPa_ms_per_mm3 =
-      c.aortic_valve_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL;
-  if (c.aortic_leak_resistance_mmHg_s_per_mL)
-    loop.aortic.leak_kPa_ms_per_mm3 = *c.aortic_leak_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL;
-  loop.arteries = {c.characteristic_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL,
-                   c.peripheral_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL,
-                   c.compliance_mL_per_mmHg * compliance_per_mL_per_mmHg,
-                   c.venous_pressure_mmHg * kPa_per_mmHg};
-  return loop;
-}
-
-TwoSidedLoop two_sided_loop(const protocol::Circulation& c) {
-  const LeftHeartLoop left = left_heart_loop(c);
-  TwoSidedLoop loop;
-  loop.left.inlet = left.mitral;
-  loop.left.outlet = left.aortic;
-  loop.left.arteries = left.arteries;
-  loop.left.venous_compliance_mm3_per_kPa =
-      c.pulmonary_venous_compliance_mL_per_mmHg * compliance_per_mL_per_mmHg;
-  loop.right.inlet.resistance_kPa_ms_per_mm3 =
-      c.tricuspid_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL;
-  loop.right.outlet.resistance_kPa_ms_per_mm3 =
-      c.pulmonary_valve_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL;
-  loop.right.arteries = {c.pulmonary_characteristic_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL,
-                         c.pulmonary_peripheral_resistance_mmHg_s_per_mL * resistance_per_mmHg_s_per_mL,
-                         c.pulmonary_compliance_mL_per_mmHg * compliance_per_mL_per_mmHg, 0};
-  loop.right.venous_compliance_mm3_per_kPa =
-      c.systemic_venous_compliance_mL_per_mmHg * compliance_per_mL_per_mmHg;
-  return loop;
-}
-
-std::shared_ptr<const CirculationModel> circulation_model(bool two_ventricles,
-                                                          const protocol::Circulation& c) {
-  if (two_ventricles) return std::make_shared<TwoSidedCirculation>(two_sided_loop(c));
-  return std::make_shared<LeftHeartCirculation>(left_heart_loop(c));
-}
-
 namespace {
 
 // Of the cavities, kPa.
-Vector filling_pressures(const Ventricle& ventricle, const protocol::Circulation& c) {
-  const Vector both{{c.filling_pressure_mmHg, c.right_filling_pressure_mmHg}};
-  return kPa_per_mmHg * both.head(std::ssize(ventricle.cavities));
+Vector filling_pressures(const Ventricle& ventricle, const scene::Circulation& c) {
+  const Vector both{{c.filling_pressure_kPa, c.right_filling_pressure_kPa}};
+  return both.head(std::ssize(ventricle.cavities));
 }
 
 // The state of a wall filled to the atrial pressures.
-HeartState filled_state(const Ventricle& ventricle, const protocol::Circulation& c, const Vector& at) {
+HeartState filled_state(const Ventricle& ventricle, const scene::Circulation& c, const Vector& at) {
   HeartState out{0, at, ventricle.cavity_volumes(at), filling_pressures(ventricle, c)};
-  out.vessels_kPa = Vector{{c.initial_aortic_pressure_mmHg}};
+  out.vessels_kPa = Vector{{c.initial_aortic_pressure_kPa}};
   if (ventricle.cavities.size() > 1)
-    out.vessels_kPa = Vector{{c.initial_aortic_pressure_mmHg, c.initial_pulmonary_pressure_mmHg,
-                              c.filling_pressure_mmHg, c.right_filling_pressure_mmHg}};
-  out.vessels_kPa *= kPa_per_mmHg;
+    out.vessels_kPa = Vector{{c.initial_aortic_pressure_kPa, c.initial_pulmonary_pressure_kPa,
+                              c.filling_pressure_kPa, c.right_filling_pressure_kPa}};
   return out;
 }
 
@@ -90,7 +49,7 @@ void add_cost(const polyaffine::SystemCost& more, SolveCost& sum) {
 }
 
 // The wall in equilibrium at the filling pressure. On failure the path says so.
-bool fill(const Ventricle& ventricle, const protocol::Circulation& circulation, const Vector& tension,
+bool fill(const Ventricle& ventricle, const scene::Circulation& circulation, const Vector& tension,
           const RunControl& control, HeartPath& path, Vector& c) {
   const polyaffine::System system =
       loaded_ventricle(ventricle, {filling_pressures(ventricle, circulation), tension});
@@ -101,9 +60,9 @@ bool fill(const Ventricle& ventricle, const protocol::Circulation& circulation, 
   path.cuts += report.cuts;
   warn_of_instability(report, "filling pressure", path);
   if (report.converged()) return true;
-  path.stop_reason =
-      "filling stopped at " + std::to_string(report.reached * circulation.filling_pressure_mmHg) + " of " +
-      std::to_string(circulation.filling_pressure_mmHg) + " mmHg: " + why_it_stopped(report, control);
+  const double filling_mmHg = circulation.filling_pressure_kPa / kPa_per_mmHg;
+  path.stop_reason = "filling stopped at " + std::to_string(report.reached * filling_mmHg) + " of " +
+                     std::to_string(filling_mmHg) + " mmHg: " + why_it_stopped(report, control);
   return false;
 }
 
@@ -114,38 +73,38 @@ double stroke_volume(const std::vector<HeartState>& steps) {
 }
 
 // Beats that the slowest arteries need to come nearer by their whole distance, 1/(1 − e^(−T/RC)).
-double beats_of_arteries(const Protocol& protocol) {
-  const protocol::Circulation& c = *protocol.circulation;
-  const double RC_s =
-      std::max(c.peripheral_resistance_mmHg_s_per_mL * c.compliance_mL_per_mmHg,
-               c.pulmonary_peripheral_resistance_mmHg_s_per_mL * c.pulmonary_compliance_mL_per_mmHg);
-  return -1 / std::expm1(-60 / protocol.time.heart_rate_bpm / RC_s);
+double beats_of_arteries(const Scene& scene) {
+  const scene::Circulation& c = *scene.circulation;
+  const double RC_ms =
+      std::max(c.peripheral_resistance_kPa_ms_per_mm3 * c.compliance_mm3_per_kPa,
+               c.pulmonary_peripheral_resistance_kPa_ms_per_mm3 * c.pulmonary_compliance_mm3_per_kPa);
+  return -1 / std::expm1(-scene.time.beat_ms / RC_ms);
 }
 
 // Of the last beat from its limit; where no estimate could be used, no less than the arteries may need.
-double distance_percent(const HeartPath& path, int volumes, const Protocol& protocol) {
+double distance_percent(const HeartPath& path, int volumes, const Scene& scene) {
   const CycleEstimate estimate = estimate_limit_cycle(path.cycle, volumes);
-  return estimate.distance_percent * (estimate.extrapolated ? 1 : beats_of_arteries(protocol));
+  return estimate.distance_percent * (estimate.extrapolated ? 1 : beats_of_arteries(scene));
 }
 
 // The limit cycle is reached when the last beat is near the one that would repeat itself, and the beat before
 // confirms it.
-bool closed(const HeartPath& path, int volumes, const Protocol& protocol) {
-  const double tolerance_percent = protocol.time.limit_cycle_tolerance_percent;
+bool closed(const HeartPath& path, int volumes, const Scene& scene) {
+  const double tolerance_percent = scene.time.limit_cycle_tolerance_percent;
   const auto& sv = path.stroke_volumes_mm3;
   return sv.size() > 1 &&
          std::abs(sv.back() - sv[sv.size() - 2]) <= tolerance_percent / 100 * std::abs(sv.back()) &&
-         distance_percent(path, volumes, protocol) <= tolerance_percent;
+         distance_percent(path, volumes, scene) <= tolerance_percent;
 }
 
-std::string unclosed_warning(const HeartPath& path, int volumes, const Protocol& protocol) {
-  const protocol::Time& time = protocol.time;
+std::string unclosed_warning(const HeartPath& path, int volumes, const Scene& scene) {
+  const scene::Time& time = scene.time;
   std::ostringstream out;
   out << "the pressure-volume loop did not close to " << time.limit_cycle_tolerance_percent
       << " % (time.limit_cycle_tolerance_percent) in " << path.beats
       << (path.beats == 1 ? " beat: " : " beats: ");
   if (path.cycle.size() > 1)
-    out << "the last is about " << std::setprecision(2) << distance_percent(path, volumes, protocol)
+    out << "the last is about " << std::setprecision(2) << distance_percent(path, volumes, scene)
         << " % from the one that would repeat itself; ";
   else
     out << "one beat does not tell how far it is from the one that would repeat itself; ";
@@ -153,7 +112,7 @@ std::string unclosed_warning(const HeartPath& path, int volumes, const Protocol&
     out << "from beat to beat this is noise of the time integration and comes no nearer: lower "
            "time.relative_tolerance ("
         << time.relative_tolerance << "), time.absolute_tolerance_mm (" << time.absolute_tolerance_mm
-        << ") and time.absolute_tolerance_mmHg (" << time.absolute_tolerance_mmHg << ")";
+        << ") and time.absolute_tolerance_mmHg (" << time.absolute_tolerance_kPa / kPa_per_mmHg << ")";
   else
     out << "raise time.max_beats";
   return out.str();
@@ -173,17 +132,17 @@ void extrapolate(const CoupledHeart& heart, double t, HeartPath& path, Vector& y
 }
 
 // The beat that the path has come to, from and to (y, rate). False, with the reason, when it stopped.
-bool run_beat(const CoupledHeart& heart, const Protocol& protocol, const ContractionField& contraction,
+bool run_beat(const CoupledHeart& heart, const Scene& scene, const ContractionField& contraction,
               const RunControl& control, Vector& y, Vector& rate, HeartPath& path) {
   const double period = contraction.curve.period_ms(), onset_ms = contraction_onset_ms(contraction);
   const int beat = path.beats;
   const double begin = beat * period, end = (beat + 1) * period;
-  const double interval = protocol.output.interval_ms;
-  const int most = most_steps(protocol.time, period);
+  const double interval = scene.output.interval_ms;
+  const int most = most_steps(scene.time, period);
   path.beat_start_ms = begin;
   path.steps = {heart.unpack(0, y)};
   path.outputs = path.steps;
-  polyaffine::DaeIntegrator ida(heart.system, dae_options(protocol.time), begin, y, rate);
+  polyaffine::DaeIntegrator ida(heart.system, dae_options(scene.time), begin, y, rate);
   BeatInstants instants(heart, begin, onset_ms, y, path);
   CycleBeat cycle{heart.states(y), {}, 0};
   std::string stop;
@@ -205,7 +164,7 @@ bool run_beat(const CoupledHeart& heart, const Protocol& protocol, const Contrac
     path.min_det_F = std::min(path.min_det_F, ida.min_det());
     path.max_det_F = std::max(path.max_det_F, ida.max_det());
     if (control.progress)
-      control.progress("beat " + std::to_string(beat + 1), ida.time() / (period * protocol.time.max_beats));
+      control.progress("beat " + std::to_string(beat + 1), ida.time() / (period * scene.time.max_beats));
     if (std::ssize(path.steps) > most)
       stop = too_many_steps(most, path.steps.back().time_ms - path.steps.end()[-2].time_ms);
     else if (stop_wanted(control))
@@ -233,9 +192,9 @@ bool run_beat(const CoupledHeart& heart, const Protocol& protocol, const Contrac
 }
 
 // The wall filled, and (y, rate) when the first beat begins. False, with the reason, when it stopped.
-bool begin_beats(const Ventricle& ventricle, const Protocol& protocol, const RunControl& control,
+bool begin_beats(const Ventricle& ventricle, const Scene& scene, const RunControl& control,
                  const CoupledHeart& heart, Vector& y, Vector& rate, HeartPath& path) {
-  const protocol::Circulation& circulation = *protocol.circulation;
+  const scene::Circulation& circulation = *scene.circulation;
   Vector c = Vector::Zero(ventricle.num_coefficients());
   const auto begin = std::chrono::steady_clock::now();
   const bool filled = fill(ventricle, circulation, ventricle.contraction->tension(0), control, path, c);
@@ -284,9 +243,9 @@ Checkpoint checkpoint(const HeartPath& path, const Vector& y, const Vector& rate
 
 }  // namespace
 
-HeartPath run_beats(const Ventricle& ventricle, const Protocol& protocol, const RunControl& control) {
-  const CoupledHeart heart = couple(
-      ventricle, circulation_model(ventricle.cavities.size() > 1, *protocol.circulation), protocol.time);
+HeartPath run_beats(const Ventricle& ventricle, const Scene& scene, const RunControl& control) {
+  const CoupledHeart heart =
+      couple(ventricle, circulation_model(ventricle.cavities.size() > 1, *scene.circulation), scene.time);
   const int cavities = heart.num_cavities();
   HeartPath path;
   ++path.built["circulation"];
@@ -295,17 +254,17 @@ HeartPath run_beats(const Ventricle& ventricle, const Protocol& protocol, const 
   if (control.resume)
     take_up(*control.resume, heart, y, rate, path);
   else
-    going_on = begin_beats(ventricle, protocol, control, heart, y, rate, path);
+    going_on = begin_beats(ventricle, scene, control, heart, y, rate, path);
   while (going_on && !path.completed) {
     if (control.on_checkpoint) control.on_checkpoint(checkpoint(path, y, rate));
-    going_on = run_beat(heart, protocol, *ventricle.contraction, control, y, rate, path);
+    going_on = run_beat(heart, scene, *ventricle.contraction, control, y, rate, path);
     if (!going_on) break;
     ++path.beats;
-    is_closed = closed(path, cavities, protocol);
-    path.completed = is_closed || path.beats == protocol.time.max_beats || is_noise(path.cycle, cavities);
+    is_closed = closed(path, cavities, scene);
+    path.completed = is_closed || path.beats == scene.time.max_beats || is_noise(path.cycle, cavities);
     if (!path.completed) extrapolate(heart, path.simulated_ms, path, y, rate);
   }
-  if (path.completed && !is_closed) path.warnings.push_back(unclosed_warning(path, cavities, protocol));
+  if (path.completed && !is_closed) path.warnings.push_back(unclosed_warning(path, cavities, scene));
   return path;
 }
 

@@ -61,12 +61,11 @@ struct RunControl {
   std::function<std::string()> stop_reason{};  ///< asked after each step; not empty: ends the run
   std::function<void(const Checkpoint& at)> on_checkpoint{};  ///< called before each beat
   std::shared_ptr<const Checkpoint> resume{};                 ///< where to go on instead of filling the wall
+  std::function<void()> on_built{};     ///< called by simulate when the model stands, before it is solved
+  std::function<void()> on_solved{};    ///< and when it is solved, before the path is told in strains
+  std::function<void()> on_distrust{};  ///< called by simulate before it begins anew with all points
+  bool keep_absurd = false;             ///< an absurd result counts as completed, with a warning
 };
-
-std::shared_ptr<const CirculationModel> circulation_model(bool two_ventricles,
-                                                          const protocol::Circulation& circulation);
-LeftHeartLoop left_heart_loop(const protocol::Circulation& circulation);
-TwoSidedLoop two_sided_loop(const protocol::Circulation& circulation);
 
 /// Beats of one or two ventricles coupled to their circulation, from the wall filled to the filling pressures
 /// until the last is within the limit-cycle tolerance of the one that would repeat itself
@@ -80,13 +79,12 @@ TwoSidedLoop two_sided_loop(const protocol::Circulation& circulation);
 /// of the last two equations; integrated by IDA, begun anew at each beat, with the block elimination of all
 /// unknowns but c. A run that cannot go on returns what it has with completed = false and the reason. Throws
 /// InputError for a checkpoint of another number of unknowns.
-HeartPath run_beats(const Ventricle& ventricle, const Protocol& protocol, const RunControl& control = {});
+HeartPath run_beats(const Ventricle& ventricle, const Scene& scene, const RunControl& control = {});
 
 /// A ventricle without circulation: pressure raised to the prescribed value in equilibrium, in load_steps,
 /// the time of the loading running from 0 to duration_ms. With contraction the loading takes no time; the
 /// pressure is then held while the muscle contracts at heart_rate_bpm for duration_ms, integrated by IDA with
 /// the viscosity of the tissue (PressedWall) and told every interval_ms.
-HeartPath run_prescribed(const Ventricle& ventricle, const Protocol& protocol,
-                         const RunControl& control = {});
+HeartPath run_prescribed(const Ventricle& ventricle, const Scene& scene, const RunControl& control = {});
 
 }  // namespace cardiac

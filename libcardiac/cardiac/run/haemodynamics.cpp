@@ -5,7 +5,7 @@
 #include <limits>
 
 #include <cardiac/core/units.hpp>
-#include <cardiac/protocol/contraction_time.hpp>
+#include <cardiac/scene/loops.hpp>
 
 namespace cardiac {
 
@@ -20,16 +20,16 @@ constexpr SideNames kLeft{"pulmonary_veins", "left_ventricle", "aorta",         
 constexpr SideNames kRight{"systemic_veins",  "right_ventricle", "pulmonary_artery", "pulmonary_arteries",
                            "tricuspid_valve", "pulmonary_valve", "pulmonary_vessels"};
 
-std::shared_ptr<const CirculationModel> model_of(const HeartPath& path, const Protocol& protocol) {
-  return circulation_model(path.circulation.front().pressures_kPa.size() > 1, *protocol.circulation);
+std::shared_ptr<const CirculationModel> model_of(const HeartPath& path, const Scene& scene) {
+  return circulation_model(path.circulation.front().pressures_kPa.size() > 1, *scene.circulation);
 }
 
 }  // namespace
 
-std::optional<Haemodynamics> haemodynamics(const HeartPath& path, const Protocol& protocol, int cavity) {
-  const double beat = beat_ms(protocol.time);
+std::optional<Haemodynamics> haemodynamics(const HeartPath& path, const Scene& scene, int cavity) {
+  const double beat = scene.time.beat_ms;
   if (path.circulation.empty() || path.circulation.back().time_ms < (1 - 1e-6) * beat) return {};
-  const auto model = model_of(path, protocol);
+  const auto model = model_of(path, scene);
   const SideNames& names = cavity == 0 ? kLeft : kRight;
   double artery = 0, before = 0, work = 0;
   double systolic = -std::numeric_limits<double>::infinity(), diastolic = -systolic;
@@ -51,7 +51,7 @@ std::optional<Haemodynamics> haemodynamics(const HeartPath& path, const Protocol
     }
   }
   Haemodynamics h;
-  constexpr double ms_per_min = 60 * ms_per_s, mL_per_L = 1000;
+  constexpr double mL_per_L = 1000;
   h.cardiac_output_L_per_min = (out.forward_mL - out.regurgitant_mL) / beat * ms_per_min / mL_per_L;
   h.stroke_work_mJ = work / 1000;  // kPa mm³ are µJ
   h.stroke_work_mmHg_mL = work / kPa_per_mmHg / mm3_per_mL;
@@ -72,10 +72,10 @@ std::optional<Haemodynamics> haemodynamics(const HeartPath& path, const Protocol
   return h;
 }
 
-CirculationTable circulation_table(const HeartPath& path, const Protocol& protocol) {
+CirculationTable circulation_table(const HeartPath& path, const Scene& scene) {
   CirculationTable table;
   if (path.circulation.empty()) return table;
-  const auto model = model_of(path, protocol);
+  const auto model = model_of(path, scene);
   const int cavities = model->num_cavities();
   const bool closed = model->is_closed();
   const auto column = [&](const std::string& name, const char* unit, auto&& value) {

@@ -7,9 +7,9 @@ namespace cardiac {
 /// What the last beat of a path means for the circulation of one ventricle (0 left, 1 right): integrals by
 /// the trapezoidal rule over HeartPath::circulation, pressure rates over time steps. None unless the beat is
 /// whole.
-std::optional<Haemodynamics> haemodynamics(const HeartPath& path, const Protocol& protocol, int cavity);
+std::optional<Haemodynamics> haemodynamics(const HeartPath& path, const Scene& scene, int cavity);
 
 /// The pressures, volumes and flows of HeartPath::circulation with their names; empty without circulation.
-CirculationTable circulation_table(const HeartPath& path, const Protocol& protocol);
+CirculationTable circulation_table(const HeartPath& path, const Scene& scene);
 
 }  // namespace cardiac

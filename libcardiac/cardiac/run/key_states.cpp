@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <cardiac/protocol/contraction_time.hpp>
+#include <cardiac/scene/loops.hpp>
 
 namespace cardiac {
 
@@ -25,8 +25,8 @@ struct Surroundings {
   std::vector<Phase> by_valves;
 };
 
-Surroundings surroundings(const HeartPath& path, const Protocol& protocol, int cavity) {
-  const auto model = circulation_model(path.steps.front().volumes_mm3.size() > 1, *protocol.circulation);
+Surroundings surroundings(const HeartPath& path, const Scene& scene, int cavity) {
+  const auto model = circulation_model(path.steps.front().volumes_mm3.size() > 1, *scene.circulation);
   const auto n = static_cast<Eigen::Index>(path.steps.size());
   Surroundings out{Vector(n), Vector(n), Vector(n), {}};
   for (Eigen::Index k = 0; k < n; ++k) {
@@ -84,7 +84,7 @@ void set_phases(const HeartPath& path, const Surroundings& around, double period
   }
 }
 
-KeyStates of_beat(const HeartPath& path, const Protocol& protocol, int cavity) {
+KeyStates of_beat(const HeartPath& path, const Scene& scene, int cavity) {
   const auto& steps = path.steps;
   const auto by_volume = [cavity](const HeartState& a, const HeartState& b) {
     return volume(a, cavity) < volume(b, cavity);
@@ -92,7 +92,7 @@ KeyStates of_beat(const HeartPath& path, const Protocol& protocol, int cavity) {
   const auto [low, high] = std::ranges::minmax_element(steps, by_volume);
   const HeartState& top =
       *std::ranges::max_element(steps, {}, [cavity](const HeartState& s) { return pressure(s, cavity); });
-  const double period = beat_ms(protocol.time);
+  const double period = scene.time.beat_ms;
   const CavityInstants none;
   const CavityInstants& at = path.instants.empty() ? none : path.instants[static_cast<std::size_t>(cavity)];
 
@@ -120,7 +120,7 @@ KeyStates of_beat(const HeartPath& path, const Protocol& protocol, int cavity) {
     out.es_is = "closing of the outlet valve";
   }
   if (path.instants.empty()) return out;
-  const Surroundings around = surroundings(path, protocol, cavity);
+  const Surroundings around = surroundings(path, scene, cavity);
   if (!at.inlet_closes && path.contraction_begins && holds_back(around)) {
     out.ed = *path.contraction_begins;
     out.ed_is = "onset of contraction";
@@ -129,7 +129,7 @@ KeyStates of_beat(const HeartPath& path, const Protocol& protocol, int cavity) {
   return out;
 }
 
-KeyStates of_loading(const HeartPath& path, const Protocol& protocol, int cavity) {
+KeyStates of_loading(const HeartPath& path, const Scene& scene, int cavity) {
   const auto& steps = path.steps;
   KeyStates out{.ed = steps.front(),
                 .es = steps.back(),
@@ -139,7 +139,7 @@ KeyStates of_loading(const HeartPath& path, const Protocol& protocol, int cavity
   if (path.contraction_begins) {
     out.ed = *path.contraction_begins;
     out.ed_is = "onset of contraction";
-    const double end = out.ed.time_ms + beat_ms(protocol.time);
+    const double end = out.ed.time_ms + scene.time.beat_ms;
     const HeartState* least = &out.ed;
     for (const HeartState& s : steps)
       if (s.time_ms > out.ed.time_ms && s.time_ms <= end && volume(s, cavity) < volume(*least, cavity))
@@ -159,17 +159,17 @@ KeyStates of_loading(const HeartPath& path, const Protocol& protocol, int cavity
 
 }  // namespace
 
-KeyStates key_states(const HeartPath& path, const Protocol& protocol, int cavity) {
-  return protocol.circulation ? of_beat(path, protocol, cavity) : of_loading(path, protocol, cavity);
+KeyStates key_states(const HeartPath& path, const Scene& scene, int cavity) {
+  return scene.circulation ? of_beat(path, scene, cavity) : of_loading(path, scene, cavity);
 }
 
-std::vector<std::string> valve_warnings(const HeartPath& path, const Protocol& protocol, int cavity) {
+std::vector<std::string> valve_warnings(const HeartPath& path, const Scene& scene, int cavity) {
   if (path.instants.empty() || !path.completed) return {};
   const bool left = cavity == 0;
   const std::string inlet = left ? "mitral" : "tricuspid", outlet = left ? "aortic" : "pulmonary";
   const CavityInstants& at = path.instants[static_cast<std::size_t>(cavity)];
   std::vector<std::string> out;
-  const Surroundings around = surroundings(path, protocol, cavity);
+  const Surroundings around = surroundings(path, scene, cavity);
   if (!ejects(around))
     out.push_back("the " + outlet +
                   " valve never opens: the pressure of the ventricle stays below that of the arteries");

@@ -30,9 +30,9 @@ struct KeyStates {
 };
 
 /// Of the left (0) or right (1) ventricle. The path must have steps.
-KeyStates key_states(const HeartPath& path, const Protocol& protocol, int cavity = 0);
+KeyStates key_states(const HeartPath& path, const Scene& scene, int cavity = 0);
 
 /// What is unusual about valves that never close or open, in words.
-std::vector<std::string> valve_warnings(const HeartPath& path, const Protocol& protocol, int cavity = 0);
+std::vector<std::string> valve_warnings(const HeartPath& path, const Scene& scene, int cavity = 0);
 
 }  // namespace cardiac

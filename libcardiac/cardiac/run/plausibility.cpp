@@ -97,4 +97,14 @@ std::vector<std::string> absurdities(const BeatResult& r) {
   return out;
 }
 
+void refuse_absurdities(BeatResult& result, bool keep) {
+  if (!result.completed) return;
+  std::string reason;
+  for (const std::string& text : absurdities(result)) reason += (reason.empty() ? "" : "; ") + text;
+  if (reason.empty()) return;
+  if (keep) return result.warnings.push_back("absurd result, kept by --force: " + reason);
+  result.completed = false;
+  result.stop_reason = "absurd result: " + reason;
+}
+
 }  // namespace cardiac

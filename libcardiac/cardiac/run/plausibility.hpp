@@ -26,4 +26,8 @@ inline constexpr double kMostCavityOverWall = 10;
 /// peak pressure and the cavities against the wall.
 std::vector<std::string> absurdities(const BeatResult& result);
 
+/// An absurd result is not a completed one: it gets a reason to have stopped or, where it is to be kept, a
+/// warning.
+void refuse_absurdities(BeatResult& result, bool keep);
+
 }  // namespace cardiac

@@ -12,11 +12,11 @@ using polyaffine::Vector;
 
 namespace {
 
-// The pressures that a protocol holds in the cavities, kPa.
-Vector prescribed_pressures(const Ventricle& ventricle, const Protocol& protocol) {
-  if (!protocol.cavities) return Vector::Zero(std::max<std::ptrdiff_t>(1, std::ssize(ventricle.cavities)));
-  const Vector both{{protocol.cavities->pressure_mmHg, protocol.cavities->right_pressure_mmHg}};
-  return kPa_per_mmHg * both.head(std::ssize(ventricle.cavities));
+// The pressures that a scene holds in the cavities, kPa.
+Vector prescribed_pressures(const Ventricle& ventricle, const Scene& scene) {
+  if (!scene.cavities) return Vector::Zero(std::max<std::ptrdiff_t>(1, std::ssize(ventricle.cavities)));
+  const Vector both{{scene.cavities->pressure_kPa, scene.cavities->right_pressure_kPa}};
+  return both.head(std::ssize(ventricle.cavities));
 }
 
 // A wall without a cavity is told as one whose volume is no number.
@@ -41,7 +41,7 @@ double last_onset(const ContractionField& contraction, double duration_ms) {
 
 // The wall from rest to the pressures, at the tension of time 0, told at every equilibrium on the way; the
 // time of the loading is `lasts_ms`. False, with the reason, when it stopped.
-bool load_wall(const Ventricle& ventricle, const Protocol& protocol, const RunControl& control,
+bool load_wall(const Ventricle& ventricle, const Scene& scene, const RunControl& control,
                const Vector& pressures_kPa, double lasts_ms, Vector& c, HeartPath& path) {
   const Vector tension = ventricle.contraction ? ventricle.contraction->tension(0) : Vector();
   const polyaffine::System system = loaded_ventricle(ventricle, {pressures_kPa, tension});
@@ -53,7 +53,7 @@ bool load_wall(const Ventricle& ventricle, const Protocol& protocol, const RunCo
   };
   tell(0, c);
   polyaffine::LoadOptions options;
-  options.first_step = options.largest_step = 1.0 / protocol.time.load_steps;
+  options.first_step = options.largest_step = 1.0 / scene.time.load_steps;
   options.on_step = tell;
   options.interrupted = [&] { return stop_wanted(control); };
   const auto report = polyaffine::load_stepping(system, *system.make_linear(), c, options);
@@ -70,16 +70,15 @@ bool load_wall(const Ventricle& ventricle, const Protocol& protocol, const RunCo
 // The contraction of a wall under constant pressures, from its equilibrium c at time 0 on.
 class Contraction {
  public:
-  Contraction(const Ventricle& ventricle, const Protocol& protocol, const Vector& pressures_kPa,
-              const Vector& c, HeartPath& path)
+  Contraction(const Ventricle& ventricle, const Scene& scene, const Vector& pressures_kPa, const Vector& c,
+              HeartPath& path)
       : ventricle_(ventricle),
-        protocol_(protocol),
+        protocol_(scene),
         pressures_kPa_(pressures_kPa),
         path_(path),
-        system_(pressed_system(ventricle, ventricle.tension(), constant(pressures_kPa),
-                               protocol.time.absolute_tolerance_mm)),
-        ida_(system_, dae_options(protocol.time), 0, c, Vector::Zero(c.size())),
-        onset_ms_(last_onset(*ventricle.contraction, protocol.time.duration_ms)) {
+        system_(system_in_time(ventricle, scene, pressures_kPa)),
+        ida_(system_, dae_options(scene.time), 0, at_rest(c), Vector::Zero(system_.size())),
+        onset_ms_(last_onset(*ventricle.contraction, scene.time.duration_ms)) {
     const TensionCurve& curve = ventricle.contraction->curve;
     relaxation_ms_ = onset_ms_ + curve.contraction_end_ms() - curve.contraction_begin_ms();
   }
@@ -114,21 +113,34 @@ class Contraction {
   }
 
  private:
-  static std::vector<polyaffine::FieldTerm::Scale> constant(const Vector& pressures_kPa) {
-    std::vector<polyaffine::FieldTerm::Scale> out;
-    for (const double p : pressures_kPa) out.emplace_back([p](double) { return p; });
+  static polyaffine::System system_in_time(const Ventricle& ventricle, const Scene& scene,
+                                           const Vector& pressures_kPa) {
+    std::vector<polyaffine::FieldTerm::Scale> constant;
+    for (const double p : pressures_kPa) constant.emplace_back([p](double) { return p; });
+    polyaffine::System out =
+        pressed_system(ventricle, ventricle.tension(), constant, scene.time.absolute_tolerance_mm);
+    add_inertia(ventricle, scene.time, out);
     return out;
   }
 
+  Vector at_rest(const Vector& c) const {
+    Vector y = Vector::Zero(system_.size());
+    system_.layout.field().of(y) = c;
+    return y;
+  }
+
+  HeartState state(double t, const Vector& y) const {
+    return state_of(ventricle_, t, system_.layout.field().of(y), pressures_kPa_);
+  }
   HeartState at(double t) const {
-    Vector c;
-    ida_.interpolate(std::min(t, ida_.time()), c);
-    return state_of(ventricle_, t, c, pressures_kPa_);
+    Vector y;
+    ida_.interpolate(std::min(t, ida_.time()), y);
+    return state(t, y);
   }
 
   // The step taken last, and what lies within it.
   void tell_step() {
-    path_.steps.push_back(state_of(ventricle_, ida_.time(), ida_.y(), pressures_kPa_));
+    path_.steps.push_back(state(ida_.time(), ida_.y()));
     const double interval = protocol_.output.interval_ms;
     for (double t = interval * static_cast<double>(path_.outputs.size()); t <= ida_.time() + 1e-9;
          t = interval * static_cast<double>(path_.outputs.size()))
@@ -139,7 +151,7 @@ class Contraction {
   }
 
   const Ventricle& ventricle_;
-  const Protocol& protocol_;
+  const Scene& protocol_;
   Vector pressures_kPa_;
   HeartPath& path_;
   polyaffine::System system_;
@@ -149,15 +161,15 @@ class Contraction {
 
 }  // namespace
 
-HeartPath run_prescribed(const Ventricle& ventricle, const Protocol& protocol, const RunControl& control) {
+HeartPath run_prescribed(const Ventricle& ventricle, const Scene& scene, const RunControl& control) {
   HeartPath path;
   Vector c = Vector::Zero(ventricle.num_coefficients());
-  const Vector pressures_kPa = prescribed_pressures(ventricle, protocol);
+  const Vector pressures_kPa = prescribed_pressures(ventricle, scene);
   const bool contracts = ventricle.contraction != nullptr;
-  const double loading_ms = contracts ? 0 : protocol.time.duration_ms;
-  path.completed = load_wall(ventricle, protocol, control, pressures_kPa, loading_ms, c, path);
+  const double loading_ms = contracts ? 0 : scene.time.duration_ms;
+  path.completed = load_wall(ventricle, scene, control, pressures_kPa, loading_ms, c, path);
   if (path.completed && contracts)
-    path.completed = Contraction(ventricle, protocol, pressures_kPa, c, path).run(control);
+    path.completed = Contraction(ventricle, scene, pressures_kPa, c, path).run(control);
   else
     path.steps = path.outputs;
   path.simulated_ms = path.steps.back().time_ms;

@@ -69,11 +69,11 @@ std::vector<SegmentInfo> segment_info(const Ventricle& ventricle) {
   return out;
 }
 
-void add_motion(const Ventricle& ventricle, const std::vector<ControlNode>& nodes, const Protocol& protocol,
+void add_motion(const Ventricle& ventricle, const std::vector<ControlNode>& nodes, const Scene& scene,
                 const HeartPath& path, const KeyStates& key, BeatResult& out) {
   const Motion motion(ventricle, nodes, out.segments, key.ed.c);
   out.nodes = motion.nodes();
-  if (protocol.output.frames) out.frame_functions = frame_functions(ventricle.discretisation);
+  if (scene.output.frames) out.frame_functions = frame_functions(ventricle.discretisation);
   for (const HeartState& state : path.outputs) {
     out.instants.push_back(motion.instant(state.time_ms, state.c));
     out.min_det_F = std::min(out.min_det_F, out.instants.back().min_det_F);
@@ -98,20 +98,20 @@ void warn_of_crushing(bool full_order, BeatResult& out) {
 
 }  // namespace
 
-std::vector<ControlNode> segment_nodes(const Anatomy& anatomy, const Protocol& protocol) {
-  FrameLayout layout = protocol_layout(anatomy, protocol);
+std::vector<ControlNode> segment_nodes(const Anatomy& anatomy, const Scene& scene) {
+  FrameLayout layout = frame_layout_of(anatomy, scene);
   if (!layout.follows_segments) layout = frame_layout(anatomy.mesh, *anatomy.coordinates);
   return control_nodes(anatomy.mesh, *anatomy.coordinates, layout);
 }
 
 BeatResult describe_path(const Ventricle& ventricle, const std::vector<ControlNode>& nodes,
-                         const Protocol& protocol, const HeartPath& path) {
+                         const Scene& scene, const HeartPath& path) {
   BeatResult out;
   const Anatomy& anatomy = *ventricle.anatomy;
   const auto& d = ventricle.discretisation;
   out.method = d.sparse ? "fem" : "polyaffine";
-  out.has_beat = protocol.circulation.has_value();
-  out.has_contraction = protocol.contraction.has_value();
+  out.has_beat = scene.circulation.has_value();
+  out.has_contraction = scene.contraction.has_value();
   out.mesh_vertices = anatomy.mesh.num_points();
   out.mesh_tets = anatomy.mesh.num_tets();
   out.dofs = d.num_unknowns;
@@ -127,7 +127,7 @@ BeatResult describe_path(const Ventricle& ventricle, const std::vector<ControlNo
   out.completed = path.completed;
   out.stop_reason = path.stop_reason;
   out.warnings = path.warnings;
-  if (d.frames) axes_of(anatomy, protocol, out.warnings);
+  if (d.frames) axes_of(anatomy, scene, out.warnings);
   // A trained rule keeps forces and volumes; means over segments are those of all points.
   const Ventricle& told = ventricle.all_points ? *ventricle.all_points : ventricle;
   out.segments = segment_info(told);
@@ -136,20 +136,20 @@ BeatResult describe_path(const Ventricle& ventricle, const std::vector<ControlNo
     return out;
   }
 
-  const KeyStates key = key_states(path, protocol);
+  const KeyStates key = key_states(path, scene);
   // A wall without a cavity is told as a left ventricle without a volume.
   out.ventricles.push_back(summarise(path, key, 0, "lv", out.has_beat));
   for (int k = 1; k < static_cast<int>(ventricle.cavities.size()); ++k)
-    out.ventricles.push_back(summarise(path, key_states(path, protocol, k), k,
+    out.ventricles.push_back(summarise(path, key_states(path, scene, k), k,
                                        ventricle.cavities[static_cast<std::size_t>(k)].name, out.has_beat));
   for (int k = 0; k < static_cast<int>(out.ventricles.size()); ++k)
-    for (std::string& warning : valve_warnings(path, protocol, k)) out.warnings.push_back(std::move(warning));
+    for (std::string& warning : valve_warnings(path, scene, k)) out.warnings.push_back(std::move(warning));
   if (out.has_beat) {
     for (std::size_t k = 0; k < out.ventricles.size(); ++k)
-      out.ventricles[k].haemodynamics = haemodynamics(path, protocol, static_cast<int>(k));
-    out.circulation = circulation_table(path, protocol);
+      out.ventricles[k].haemodynamics = haemodynamics(path, scene, static_cast<int>(k));
+    out.circulation = circulation_table(path, scene);
   }
-  add_motion(ventricle, nodes, protocol, path, key, out);
+  add_motion(ventricle, nodes, scene, path, key, out);
   warn_of_crushing(d.sparse, out);
   return out;
 }

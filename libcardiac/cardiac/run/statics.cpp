@@ -25,11 +25,11 @@ void warn_of_instability(const polyaffine::LoadReport& report, const std::string
                           "may be other solutions");
 }
 
-polyaffine::DaeOptions dae_options(const protocol::Time& time) {
+polyaffine::DaeOptions dae_options(const scene::Time& time) {
   return {.relative_tolerance = time.relative_tolerance, .max_step = time.max_step_ms};
 }
 
-int most_steps(const protocol::Time& time, double span_ms) {
+int most_steps(const scene::Time& time, double span_ms) {
   return std::max(2000, static_cast<int>(10 * std::ceil(span_ms / time.max_step_ms)));
 }
 

@@ -16,11 +16,11 @@ std::string why_it_stopped(const polyaffine::LoadReport& report, const RunContro
 /// Warns in the path when the equilibrium of a load is not stable.
 void warn_of_instability(const polyaffine::LoadReport& report, const std::string& load, HeartPath& path);
 
-/// The integration that a protocol asks for.
-polyaffine::DaeOptions dae_options(const protocol::Time& time);
+/// The integration that a scene asks for.
+polyaffine::DaeOptions dae_options(const scene::Time& time);
 
 /// Time steps of `span_ms`, some ten times as many as one needs.
-int most_steps(const protocol::Time& time, double span_ms);
+int most_steps(const scene::Time& time, double span_ms);
 
 /// Why an integration with so many steps ends.
 std::string too_many_steps(int steps, double last_step_ms);

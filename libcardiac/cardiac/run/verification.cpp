@@ -104,14 +104,14 @@ Comparison compare(const Ventricle& reduced, const Ventricle& full, const HeartS
 
 }  // namespace
 
-std::vector<VerificationInstant> verify_path(const Ventricle& reduced, const Protocol& protocol,
+std::vector<VerificationInstant> verify_path(const Ventricle& reduced, const Scene& scene,
                                              const HeartPath& path, const Progress& progress) {
   const auto tell = [&](const std::string& what, double fraction) {
     if (progress) progress(what, fraction);
   };
   tell("full order: elements", 0);
-  const KeyStates key = key_states(path, protocol);
-  const Ventricle full = build_ventricle(reduced.anatomy, protocol, protocol::Method::fem);
+  const KeyStates key = key_states(path, scene);
+  const Ventricle full = build_ventricle(reduced.anatomy, scene, scene::Method::fem);
   const SegmentGauge gauge(*reduced.anatomy->coordinates, full.discretisation.points);
   std::vector<VerificationInstant> out;
   Matrix F_reduced_ed, F_full_ed;
@@ -126,7 +126,7 @@ std::vector<VerificationInstant> verify_path(const Ventricle& reduced, const Pro
     if (out.empty()) {
       F_reduced_ed = at.F_reduced;
       F_full_ed = at.F_full;
-      if (!protocol.contraction)
+      if (!scene.contraction)
         F_reduced_ed = F_full_ed = polyaffine::Mat3::Identity().reshaped().replicate(1, F_full_ed.cols());
     }
     // At end diastole the strain is that of the filling, against the reference configuration.

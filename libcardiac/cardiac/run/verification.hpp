@@ -11,7 +11,7 @@ namespace cardiac {
 /// Differences are reduced against full order. `progress` is told each iteration and the share that is done,
 /// an instant counting as a half and within it the decades that the residual has fallen; it may throw. Throws
 /// ComputationError when the full-order problem has no solution near by.
-std::vector<VerificationInstant> verify_path(const Ventricle& reduced, const Protocol& protocol,
+std::vector<VerificationInstant> verify_path(const Ventricle& reduced, const Scene& scene,
                                              const HeartPath& path, const Progress& progress = {});
 
 }  // namespace cardiac

@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include <cardiac/protocol/describe.hpp>
 #include <cardiac/training/trained_rule.hpp>
 #include <polyaffine/core/cache.hpp>
 #include <polyaffine/mesh/digest.hpp>
@@ -16,18 +15,7 @@ using polyaffine::Vector;
 namespace {
 
 constexpr const char* kKind =
-    "cubature-8";  // the number changes when the training or the points it chooses from do
-
-// The mesh and the parts of a protocol that the training reads.
-std::string rule_key(const Anatomy& anatomy, const Protocol& protocol) {
-  nlohmann::json parts = resolved_json(protocol);
-  for (const char* part : {"mesh", "activation", "circulation", "region", "time", "output"})
-    parts.erase(part);
-  if (protocol.circulation) parts["circulation"] = true;
-  if (protocol.contraction)
-    parts["contraction"] = {{"cross_fibre_fraction", protocol.contraction->cross_fibre_fraction}};
-  return polyaffine::digest(anatomy.mesh) + ' ' + parts.dump();
-}
+    "cubature-9";  // the number changes when the training or the points it chooses from do
 
 void write_rule(const CompressedRule& rule, std::ostream& out) {
   out << rule.points.size() << ' ' << std::hexfloat << rule.residual << '\n';
@@ -59,15 +47,50 @@ CompressedRule read_rule(std::istream& in) {
 
 }  // namespace
 
-TrainedRule cached_rule(const std::shared_ptr<const Anatomy>& anatomy, const Protocol& protocol) {
-  // Fibres that are not the protocol's own rule are not part of the key.
-  const std::string key = anatomy->fibres ? "" : rule_key(*anatomy, protocol);
+// All members of the parts that training reads, each behind its name; a new one has a place here.
+std::string rule_key(const Anatomy& anatomy, const Scene& scene) {
+  nlohmann::json key;
+  const scene::Reduction& r = scene.reduction;
+  key["reduction"] = {{"weights", r.weights},
+                      {"sigmoid_slope", r.sigmoid_slope},
+                      {"enrichment", r.enrichment.value()},
+                      {"pressure_space", r.pressure_space.value()},
+                      {"border_functions", r.border_functions.value()},
+                      {"local_bulk_modulus_kPa", r.local_bulk_modulus_kPa},
+                      {"axes", r.axes},
+                      {"ring_nodes", r.ring_nodes},
+                      {"ring_positions", r.ring_positions.value_or(std::vector<double>{})},
+                      {"ring_angles_deg", r.ring_angles_deg.value_or(std::vector<double>{})}};
+  const scene::Tissue& t = scene.tissue;
+  key["tissue"] = {
+      {"law", t.law},
+      {"guccione", {t.C_kPa, t.bf, t.bt, t.bfs}},
+      {"holzapfel_ogden", {t.a_kPa, t.b, t.a_f_kPa, t.b_f, t.a_s_kPa, t.b_s, t.a_fs_kPa, t.b_fs}},
+      {"neo_hookean", t.mu_kPa},
+      {"mooney_rivlin", {t.c1_kPa, t.c2_kPa}},
+      {"saint_venant_kirchhoff", {t.youngs_modulus_kPa, t.poisson_ratio}},
+      {"bulk_modulus_kPa", t.bulk_modulus_kPa},
+      {"viscosity_kPa_ms", t.viscosity_kPa_ms}};
+  if (const auto& f = scene.fibres)
+    key["fibres"] = {f->endo_angle_deg, f->epi_angle_deg, f->sheet_angle_deg, f->rv_endo_angle_deg,
+                     f->rv_epi_angle_deg};
+  if (scene.contraction) key["cross_fibre_fraction"] = scene.contraction->cross_fibre_fraction;
+  if (scene.cavities) key["cavities"] = scene.cavities->pressure_kPa;
+  key["circulation"] = scene.circulation.has_value();
+  const scene::Boundary& b = scene.boundary;
+  key["boundary"] = {b.base, b.epicardial_stiffness_kPa_per_mm, b.epicardial_directions};
+  return polyaffine::digest(anatomy.mesh) + ' ' + key.dump();
+}
+
+TrainedRule cached_rule(const std::shared_ptr<const Anatomy>& anatomy, const Scene& scene) {
+  // Fibres that are not the scene's own rule are not part of the key.
+  const std::string key = anatomy->fibres ? "" : rule_key(*anatomy, scene);
   if (const auto stored = key.empty() ? std::nullopt : polyaffine::read_cache(kKind, key)) {
     std::istringstream in(*stored);
     const CompressedRule wall = read_rule(in);
     return {wall, read_rule(in)};
   }
-  TrainedRule rule = train_rule(anatomy, protocol);
+  TrainedRule rule = train_rule(anatomy, scene);
   if (key.empty()) return rule;
   std::ostringstream out;
   write_rule(rule.wall, out);

@@ -17,9 +17,9 @@ using polyaffine::Vector;
 
 namespace {
 
-constexpr int kStiffnesses = 6, kLoads = 7;  // samples of the one, and for each of them of the other
-constexpr double kTension_kPa = 120;         // largest level of the active tension
-constexpr double kPressure_mmHg = 160;       // largest pressure with a circulation
+constexpr int kStiffnesses = 6, kLoads = 7;           // samples of the one, and for each of them of the other
+constexpr double kTension_kPa = 120;                  // largest level of the active tension
+constexpr double kPressure_kPa = 160 * kPa_per_mmHg;  // largest pressure with a circulation
 constexpr double kWallAccuracy = 2e-2, kCavityAccuracy = 5e-3;  // in the energy norm
 constexpr double kViscousTime_ms = 40;                          // from half to the whole of a load
 
@@ -29,11 +29,11 @@ class Samples {
     return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53;
   }
   // One override for each segment, every third segment in the low or high range of a sick one.
-  std::vector<protocol::RegionOverride> overrides(double protocol::RegionOverride::*factor, double low,
-                                                  double high) {
-    std::vector<protocol::RegionOverride> out;
+  std::vector<scene::RegionOverride> overrides(double scene::RegionOverride::*factor, double low,
+                                               double high) {
+    std::vector<scene::RegionOverride> out;
     for (int s = 1; s <= kAhaSegments; ++s) {
-      protocol::RegionOverride region;
+      scene::RegionOverride region;
       region.segments = {s};
       region.*factor = uniform(0, 3) < 1 ? uniform(low, high) : uniform(0.8, 1.2);
       out.push_back(region);
@@ -131,22 +131,22 @@ class Trainer {
 };
 
 // Pressure and tension of sample j of the loads.
-WallLoad sample_load(Samples& samples, int j, const Anatomy& anatomy, Protocol protocol,
+WallLoad sample_load(Samples& samples, int j, const Anatomy& anatomy, Scene scene,
                      const polyaffine::WallPoints& points) {
   WallLoad load;
   const double level = (j + samples.uniform(0, 1)) / kLoads;
-  double highest = protocol.cavities ? protocol.cavities->pressure_mmHg : kPressure_mmHg;
-  if (protocol.contraction) {
+  double highest = scene.cavities ? scene.cavities->pressure_kPa : kPressure_kPa;
+  if (scene.contraction) {
     highest *= std::min(1.0, 0.2 + 1.5 * level);
-    protocol.regions.clear();
-    if (j > 0) protocol.regions = samples.overrides(&protocol::RegionOverride::tension_factor, 0, 0.5);
+    scene.regions.clear();
+    if (j > 0) scene.regions = samples.overrides(&scene::RegionOverride::tension_factor, 0, 0.5);
     load.tension = Vector::Constant(static_cast<Eigen::Index>(points.tet.size()), level * kTension_kPa);
-    const auto factors = region_factors(anatomy, protocol, points).tension;
+    const auto factors = region_factors(anatomy, scene, points).tension;
     if (!factors.empty())
       load.tension.array() *= Eigen::Map<const Eigen::ArrayXd>(factors.data(), std::ssize(factors));
   }
-  if (protocol.cavities || protocol.circulation)
-    load.pressures_kPa = Vector::Constant(1, samples.uniform(0.1, 1) * highest * kPa_per_mmHg);
+  if (scene.cavities || scene.circulation)
+    load.pressures_kPa = Vector::Constant(1, samples.uniform(0.1, 1) * highest);
   return load;
 }
 
@@ -167,14 +167,14 @@ std::vector<State> loaded_states(const Ventricle& ventricle, const WallLoad& loa
 
 }  // namespace
 
-TrainedRule train_rule(const std::shared_ptr<const Anatomy>& anatomy, const Protocol& protocol) {
-  const Discretisation all = discretise(anatomy, protocol, protocol::Method::polyaffine);
+TrainedRule train_rule(const std::shared_ptr<const Anatomy>& anatomy, const Scene& scene) {
+  const Discretisation all = discretise(anatomy, scene, scene::Method::polyaffine);
   Samples samples;
   std::optional<Trainer> trainer;
-  Protocol sampled = protocol;
+  Scene sampled = scene;
   for (int i = 0; i < kStiffnesses; ++i) {
     sampled.regions.clear();
-    if (i > 0) sampled.regions = samples.overrides(&protocol::RegionOverride::stiffness_factor, 1, 4);
+    if (i > 0) sampled.regions = samples.overrides(&scene::RegionOverride::stiffness_factor, 1, 4);
     const Ventricle ventricle = assemble_ventricle(anatomy, sampled, all);
     if (!trainer) trainer.emplace(ventricle);
     for (int j = 0; j < kLoads; ++j) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include <cardiac/core/heart_state.hpp>
 #include <cardiac/model/ventricle.hpp>
@@ -14,15 +15,19 @@ struct TrainedRule {
 };
 
 /// Trains the rule of a reduced model (polyaffine::CubatureTraining) on equilibria of the given heart that
-/// span what a protocol can ask: cavity pressure, active tension and stiffness vary, and with them factors on
+/// span what a scene can ask: cavity pressure, active tension and stiffness vary, and with them factors on
 /// the tension and stiffness of every AHA segment, weak and stiff segments among them. Integrals kept are the
 /// generalised forces (viscous ones included) and the change of volume seen by each pressure, as Gauss points
 /// of the mesh have them, and the cavity's volume with its gradient; all in the energy norm of the state.
-/// Does not depend on regions, timing and circulation of the protocol, so one rule serves all of them.
-TrainedRule train_rule(const std::shared_ptr<const Anatomy>& anatomy, const Protocol& protocol);
+/// Does not depend on regions, timing and circulation of the scene, so one rule serves all of them.
+TrainedRule train_rule(const std::shared_ptr<const Anatomy>& anatomy, const Scene& scene);
+
+/// What tells the rules of two scenes apart: the mesh and all that training reads. Fibres that are not the
+/// scene's own rule are not part of it.
+std::string rule_key(const Anatomy& anatomy, const Scene& scene);
 
 /// The same from the cache (polyaffine::read_cache), trained and stored there if it is missing.
-TrainedRule cached_rule(const std::shared_ptr<const Anatomy>& anatomy, const Protocol& protocol);
+TrainedRule cached_rule(const std::shared_ptr<const Anatomy>& anatomy, const Scene& scene);
 
 /// A discretisation with the points of a rule only.
 Discretisation with_rule(const Discretisation& all_points, const TrainedRule& rule);

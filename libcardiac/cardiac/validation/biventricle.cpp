@@ -1,4 +1,6 @@
+#include <cardiac/protocol/build_anatomy.hpp>
 #include <cardiac/run/build_ventricle.hpp>
+#include <cardiac/scene/loops.hpp>
 #include <cardiac/validation/biventricle.hpp>
 
 #include <algorithm>
@@ -7,8 +9,8 @@
 #include <tuple>
 
 #include <cardiac/core/units.hpp>
-#include <cardiac/run/beat.hpp>
 #include <cardiac/run/errors.hpp>
+#include <cardiac/run/simulate.hpp>
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/solve/load_stepping.hpp>
 
@@ -132,8 +134,9 @@ Stroke stroke(const HeartPath& path, int cavity) {
 }
 
 HeartPath beats(const Heart& heart, const std::vector<std::string>& settings) {
-  const Ventricle ventricle = heart.build(settings);
-  HeartPath path = run_beats(ventricle, heart.protocol(settings));
+  Protocol scene = heart.protocol(settings);
+  scene.heart = std::make_shared<const Anatomy>(build_anatomy(heart.mesh, scene));
+  HeartPath path = simulate(scene).path;
   if (!path.completed) throw polyaffine::ComputationError("biventricle, beat: " + path.stop_reason);
   return path;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <cardiac/anatomy/exact_midpoints.hpp>
+#include <cardiac/protocol/build_anatomy.hpp>
 #include <cardiac/run/build_ventricle.hpp>
 #include <cardiac/run/errors.hpp>
 #include <polyaffine/kinematics/element_locator.hpp>

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include <cardiac/core/units.hpp>
+#include <cardiac/protocol/build_anatomy.hpp>
 #include <cardiac/run/build_ventricle.hpp>
 #include <polyaffine/core/error.hpp>
 

@@ -1,3 +1,4 @@
+#include <cardiac/protocol/build_anatomy.hpp>
 #include <cardiac/run/build_ventricle.hpp>
 #include <cardiac/validation/land_reduced.hpp>
 

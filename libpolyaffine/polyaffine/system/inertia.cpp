@@ -14,7 +14,8 @@ Inertia::Inertia(FieldTable body, double density, double velocity_tolerance, Sta
       v_(layout.add({.name = "velocity",
                      .unit = "mm/ms",
                      .solved = Solved::apart,
-                     .absolute_tolerance = velocity_tolerance},
+                     .absolute_tolerance = velocity_tolerance,
+                     .error_tested = false},
                     c_.size)) {}
 
 void Inertia::add_residual(const At& at, Residual& out) const {

@@ -7,7 +7,8 @@ namespace polyaffine {
 
 /// The inertia of a body, ∫ ρ N_a ü dV, with the velocity as a block of its own that it solves apart:
 ///   R_c = M v̇,  R_v = ċ − v;  with a tangent by α: (K + αC + α²M) δc = ρ_c + α M ρ_v,  δv = α δc − ρ_v.
-/// Parameter "density".
+/// The error test of time integration leaves the velocity out: where a constraint holds the displacement (a
+/// closed cavity) it is a multiplier's neighbour, of index 2. Parameter "density".
 class Inertia : public Term {
  public:
   /// `body`: the displacement table of points that integrate products of two functions; `density` ρ in mg/mm³

@@ -29,8 +29,8 @@ TEST(BenchScenes, CoverFillingContractionScarsOtherHeartsAndLocking) {
       EXPECT_EQ(load.pressure_kPa, scene.path.front().pressure_kPa);
     }
     // The pressure of the protocol is told in mmHg, of which 1 kPa has 7.5006.
-    EXPECT_NEAR(protocol.cavities->pressure_mmHg, 7.50062 * scene.path.back().pressure_kPa,
-                1e-4 * protocol.cavities->pressure_mmHg);
+    EXPECT_NEAR(protocol.cavities->pressure_kPa, scene.path.back().pressure_kPa,
+                1e-4 * protocol.cavities->pressure_kPa);
     contracting += protocol.contraction.has_value();
     with_scar += !protocol.regions.empty();
     other_hearts += scene.other_heart;

@@ -8,6 +8,7 @@
 
 #include <cardiac/core/units.hpp>
 #include <cardiac/run/build_ventricle.hpp>
+#include <cardiac/scene/loops.hpp>
 #include <polyaffine/solve/load_stepping.hpp>
 
 #include "support/heart_run.hpp"
@@ -192,8 +193,8 @@ TEST(CoupledHeart, ClosedVentricleKeepsItsVolumeThroughABeat) {
   // Arteries under a pressure that the ventricle does not reach: it contracts and relaxes at one volume.
   const testing::HeartRun& healthy = testing::shipped_run("healthy_lv");
   Protocol protocol = healthy.protocol;
-  protocol.circulation->initial_aortic_pressure_mmHg = 1000;
-  protocol.circulation->peripheral_resistance_mmHg_s_per_mL = 10;
+  protocol.circulation->initial_aortic_pressure_kPa = 1000 * kPa_per_mmHg;
+  protocol.circulation->peripheral_resistance_kPa_ms_per_mm3 = 10 * resistance_per_mmHg_s_per_mL;
   protocol.time.max_beats = 1;
   const HeartPath path = run_beats(healthy.ventricle, protocol);
   ASSERT_TRUE(path.completed) << path.stop_reason;

@@ -3,8 +3,8 @@
 #include <array>
 #include <filesystem>
 
+#include <cardiac/protocol/plan.hpp>
 #include <cardiac/run/build_ventricle.hpp>
-#include <cardiac/run/plan.hpp>
 
 #include "support/heart_run.hpp"
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cardiac/protocol/describe.hpp>
-#include <cardiac/run/plan.hpp>
+#include <cardiac/protocol/plan.hpp>
 
 #include "support/mutation.hpp"
 #include "texts.hpp"

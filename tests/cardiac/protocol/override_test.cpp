@@ -12,7 +12,7 @@ TEST(Override, ReplacesAddsAndOpensTables) {
   const auto protocol = parsed(kBeat, {"tissue.C_kPa=3.5", "time.heart_rate_bpm = 60", "reduction.method=fem",
                                        "tissue.C_kPa=4", "anatomy.anterior_direction=[1, 0, 0]"});
   EXPECT_EQ(protocol.tissue.C_kPa, 4);  // the last one counts
-  EXPECT_EQ(protocol.time.heart_rate_bpm, 60);
+  EXPECT_EQ(protocol.time.beat_ms, 1000);
   EXPECT_EQ(protocol.reduction.method, cardiac::protocol::Method::fem);
   EXPECT_EQ(protocol.anatomy.anterior_direction, (cardiac::protocol::Vector3{1, 0, 0}));
   const std::string file = "[mesh]\nfile = \"a.vtu\"\nlength_unit = \"mm\"\n";

@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include <cardiac/core/units.hpp>
 #include <cardiac/protocol/names.hpp>
 
 #include "texts.hpp"
@@ -42,7 +43,7 @@ TEST(Parse, AbsentTablesStayAbsentAndNamedOnesTakeDefaults) {
   const auto passive = parsed(kPassive);
   EXPECT_FALSE(passive.fibres || passive.activation || passive.contraction || passive.circulation);
   ASSERT_TRUE(passive.cavities);
-  EXPECT_EQ(passive.cavities->pressure_mmHg, 7.5);
+  EXPECT_EQ(passive.cavities->pressure_kPa, 7.5 * kPa_per_mmHg);
   const auto beat = parsed(kBeat);
   EXPECT_TRUE(beat.fibres && beat.activation && beat.contraction && beat.circulation);
   EXPECT_FALSE(beat.cavities);

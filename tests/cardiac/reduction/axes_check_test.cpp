@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cardiac/model/ventricle.hpp>
+#include <cardiac/protocol/build_anatomy.hpp>
 #include <cardiac/run/build_ventricle.hpp>
 
 #include <polyaffine/solve/load_stepping.hpp>

@@ -8,6 +8,7 @@
 #include <cardiac/model/vertex_displacement.hpp>
 #include <cardiac/run/build_ventricle.hpp>
 #include <cardiac/run/errors.hpp>
+#include <cardiac/scene/loops.hpp>
 
 #include <polyaffine/solve/load_stepping.hpp>
 
@@ -38,7 +39,7 @@ TEST(BiventricleHeart, PressuresFillBothCavitiesAndStrainAllSegments) {
   Protocol p = CoarseBiventricle::get().protocol;
   p.circulation.reset();
   p.contraction.reset();
-  p.cavities = {10, 5};
+  p.cavities = {10 * kPa_per_mmHg, 5 * kPa_per_mmHg};
   p.time.load_steps = 2;
   const testing::HeartRun run(p, CoarseBiventricle::get().anatomy);
   ASSERT_TRUE(run.path.completed) << run.path.stop_reason;
@@ -93,7 +94,7 @@ TEST(BiventricleHeart, PressuresFillBothCavitiesAndStrainAllSegments) {
 TEST(BiventricleHeart, ReducedModelFollowsTheFullOrder) {
   Protocol p = CoarseBiventricle::get().protocol;
   p.circulation.reset();
-  p.cavities = {10, 5};
+  p.cavities = {10 * kPa_per_mmHg, 5 * kPa_per_mmHg};
   const auto& anatomy = CoarseBiventricle::get().anatomy;
   const Ventricle reduced = build_ventricle(anatomy, p, protocol::Method::polyaffine);
   const Ventricle full = build_ventricle(anatomy, p, protocol::Method::fem);

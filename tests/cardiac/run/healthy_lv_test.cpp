@@ -5,6 +5,7 @@
 
 #include <cardiac/anatomy/segments.hpp>
 #include <cardiac/core/units.hpp>
+#include <cardiac/scene/loops.hpp>
 #include <cardiac/strain/peaks.hpp>
 
 #include "support/heart_run.hpp"

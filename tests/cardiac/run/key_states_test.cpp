@@ -6,6 +6,7 @@
 
 #include <cardiac/core/units.hpp>
 #include <cardiac/run/haemodynamics.hpp>
+#include <cardiac/scene/loops.hpp>
 
 #include "support/heart_run.hpp"
 

@@ -7,6 +7,7 @@
 
 #include <cardiac/anatomy/structured_ellipsoid.hpp>
 #include <cardiac/core/units.hpp>
+#include <cardiac/protocol/build_anatomy.hpp>
 #include <cardiac/run/build_ventricle.hpp>
 #include <polyaffine/solve/load_stepping.hpp>
 

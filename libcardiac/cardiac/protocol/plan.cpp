@@ -2,8 +2,8 @@
 #include <stdexcept>
 
 #include <cardiac/protocol/names.hpp>
+#include <cardiac/protocol/plan.hpp>
 #include <cardiac/protocol/rules.hpp>
-#include <cardiac/run/plan.hpp>
 
 namespace cardiac {
 namespace {

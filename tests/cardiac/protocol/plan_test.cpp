@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <set>
 
-#include <cardiac/run/plan.hpp>
+#include <cardiac/protocol/plan.hpp>
 
 #include "texts.hpp"
 

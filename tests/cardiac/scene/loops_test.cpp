@@ -1,27 +1,27 @@
 #include <gtest/gtest.h>
 
 #include <cardiac/core/units.hpp>
-#include <cardiac/run/beat.hpp>
+#include <cardiac/scene/loops.hpp>
 
 namespace cardiac {
 namespace {
 
-protocol::Circulation circulation() {
-  protocol::Circulation out;
-  out.mitral_resistance_mmHg_s_per_mL = 0.01;
-  out.aortic_valve_resistance_mmHg_s_per_mL = 0.02;
-  out.characteristic_resistance_mmHg_s_per_mL = 0.08;
-  out.aortic_leak_resistance_mmHg_s_per_mL = 0.32;
-  out.peripheral_resistance_mmHg_s_per_mL = 2;
-  out.compliance_mL_per_mmHg = 1.5;
-  out.venous_pressure_mmHg = 5;
-  out.filling_pressure_mmHg = 12;
+scene::Circulation circulation() {
+  scene::Circulation out;
+  out.mitral_resistance_kPa_ms_per_mm3 = 0.01 * resistance_per_mmHg_s_per_mL;
+  out.aortic_valve_resistance_kPa_ms_per_mm3 = 0.02 * resistance_per_mmHg_s_per_mL;
+  out.characteristic_resistance_kPa_ms_per_mm3 = 0.08 * resistance_per_mmHg_s_per_mL;
+  out.aortic_leak_resistance_kPa_ms_per_mm3 = 0.32 * resistance_per_mmHg_s_per_mL;
+  out.peripheral_resistance_kPa_ms_per_mm3 = 2 * resistance_per_mmHg_s_per_mL;
+  out.compliance_mm3_per_kPa = 1.5 * compliance_per_mL_per_mmHg;
+  out.venous_pressure_kPa = 5 * kPa_per_mmHg;
+  out.filling_pressure_kPa = 12 * kPa_per_mmHg;
   return out;
 }
 
 // Every resistance once, between the pressures that the protocol means. The rounding of the valves at 0.05
 // mmHg adds less than 0.1 mL/s.
-TEST(LoopOfAProtocol, OneVentricle) {
+TEST(LoopOfAScene, OneVentricle) {
   const LeftHeartLoop loop = left_heart_loop(circulation());
   const auto flows = [&](double cavity, double arteries) {
     const LoopFlows q = loop_flows(loop, cavity * kPa_per_mmHg, arteries * kPa_per_mmHg);
@@ -39,7 +39,7 @@ TEST(LoopOfAProtocol, OneVentricle) {
               1e-3);
 }
 
-TEST(LoopOfAProtocol, TwoVentriclesHaveTheSameLeftOutlet) {
+TEST(LoopOfAScene, TwoVentriclesHaveTheSameLeftOutlet) {
   const LeftHeartLoop one = left_heart_loop(circulation());
   const TwoSidedLoop two = two_sided_loop(circulation());
   const Valve &a = one.aortic, &b = two.left.outlet;

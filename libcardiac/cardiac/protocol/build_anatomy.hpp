@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+
+#include <cardiac/protocol/protocol.hpp>
+
+namespace cardiac {
+
+/// What is known of a wall beyond its mesh.
+struct ExactGeometry {
+  std::optional<polyaffine::EdgeMidpoints> midpoints;  ///< absent: smooth_midpoints of the mesh
+  FibreFunction fibres;                                ///< see Anatomy
+};
+
+/// The boundary of the mesh carries the labels kEndocardium, kEpicardium and kBase, with two ventricles also
+/// kRvEndocardium. Throws InputError as its coordinates and its segments do, and when the protocol's scheme
+/// is for another number of ventricles.
+Anatomy build_anatomy(polyaffine::TetMesh mesh, const Protocol& protocol, const ExactGeometry& exact = {});
+
+}  // namespace cardiac
