@@ -40,9 +40,9 @@ parallel_jobs() {
   echo $((processors < fitting ? processors : fitting))
 }
 
-# build PRESET [TARGET]: configures when needed and builds into build/PRESET.
+# build PRESET [TARGET...]: configures when needed and builds into build/PRESET.
 build() {
-  local preset=$1 target=${2:-all}
+  local preset=$1 targets=("${@:2}")
   [[ -f build/$preset/build.ninja ]] || cmake --preset "$preset" || return
-  cmake --build --preset "$preset" --target "$target" --parallel "$(parallel_jobs)"
+  cmake --build --preset "$preset" --target "${targets[@]:-all}" --parallel "$(parallel_jobs)"
 }

@@ -1,9 +1,17 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds everything in release mode, runs every test and checks the format.
-# Options for the long checks:
-#   --sanitize  also build (with Clang) and run the tests with address and undefined-behaviour sanitizers
+# Installs what is missing and runs, one stage after the other, and says how long each took:
+#   format, layers   clang-format, the order of the folders and the lists of sources
+#   build, consumers, headers, tests
+#                    the release build; programs against its installed libraries; every installed header alone;
+#                    every test
+#   plain            the build without VTK and CGAL, with those tests that need neither
+#   sanitizers       the tests of some folders of libpolyaffine, built with Clang, under address and
+#                    undefined-behaviour sanitizers
+# Options:
+#   --quick     without the stages plain and sanitizers
+#   --sanitize  all tests under sanitizers
 #   --debug     also compare the tables of an unoptimised build with those of the release build (1e-8)
-#   --plain     also compare the tables of a build without VTK and CGAL with those of the release build (equal)
+#   --plain     also compare the tables of the plain build with those of the release build (equal)
 #   --cost      also measure time, memory and libraries of some scenes and the start of the program
 #   --extreme   also run `cardiac validate extreme`, in 15 minutes at most, and its --quick set, in 2
 #   --tidy      also run clang-tidy over all sources
@@ -11,9 +19,10 @@ set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 source apps/setup.sh
 
-sanitize=no debug=no plain=no cost=no extreme=no tidy=no
+quick=no sanitize=no debug=no plain=no cost=no extreme=no tidy=no
 for option in "$@"; do
   case $option in
+    --quick) quick=yes ;;
     --sanitize) sanitize=yes ;;
     --debug) debug=yes ;;
     --plain) plain=yes ;;
@@ -21,58 +30,77 @@ for option in "$@"; do
     --extreme) extreme=yes ;;
     --tidy) tidy=yes ;;
     *)
-      echo "usage: bash tests/run.sh [--sanitize] [--debug] [--plain] [--cost] [--extreme] [--tidy]" >&2
+      echo "usage: bash tests/run.sh [--quick] [--sanitize] [--debug] [--plain] [--cost] [--extreme] [--tidy]" >&2
       exit 2
       ;;
   esac
 done
 
-sources() { find apps libcardiac libpolyaffine tests -name "$1" -print0; }
-failed=()
+# Folders of libpolyaffine whose tests are quick to build and run: raw memory, files, packs, solvers.
+sanitized_folders=(core mesh_io material kinematics linear system)
+
+sources() { find apps examples libcardiac libpolyaffine tests -name "$1" -print0; }
+failed=() times=()
 check() {
-  local name=$1
+  local name=$1 start=$SECONDS
   shift
+  echo "== $name"
   "$@" || failed+=("$name")
+  times+=("$(printf '%5d s  %s' $((SECONDS - start)) "$name")")
+}
+finish() {
+  printf '%s\n' "${times[@]}"
+  ((${#failed[@]})) || exit 0
+  printf 'Failed: %s\n' "${failed[@]}" >&2
+  exit 1
 }
 
 purposes=(tests)
 [[ $tidy == yes ]] && purposes+=(tidy)
-[[ $sanitize == yes ]] && purposes+=(sanitize)
+[[ $sanitize == yes || $quick == no ]] && purposes+=(sanitize)
 install_packages "${purposes[@]}" || exit 1
 
-presets=(release)
-[[ $sanitize == yes ]] && presets=(sanitize release)
-for preset in "${presets[@]}"; do
-  build "$preset" || exit 1
-done
-if [[ $debug == yes ]]; then
-  build debug cardiac_app || exit 1
-fi
-if [[ $plain == yes ]]; then
-  build plain cardiac_app || exit 1
-fi
-
-same_tables() { bash tests/same_tables.sh build/release/bin/cardiac "build/$1/bin/cardiac" "$2"; }
 check_format() { sources '*.[ch]pp' | xargs -0 clang-format --dry-run -Werror; }
 check_tidy() {
-  sources '*.cpp' | xargs -0 --max-args=1 --max-procs="$(parallel_jobs)" clang-tidy -p build/release --quiet
+  sources '*.cpp' | grep --null-data --invert-match --extended-regexp '^(examples|tests/consumers)/' |
+    xargs -0 --max-args=1 --max-procs="$(parallel_jobs)" clang-tidy -p build/release --quiet
 }
-check "clang-format" check_format
-check "layers" python3 tests/layers.py
-[[ $tidy == yes ]] && check "clang-tidy" check_tidy
-for preset in "${presets[@]}"; do
-  check "tests ($preset)" ctest --preset "$preset" --parallel "$(nproc)" --no-tests=error
-done
-[[ $plain == yes ]] && check "tables (plain)" same_tables plain 0
-[[ $debug == yes ]] && check "tables (debug)" same_tables debug 1e-8
+check_headers() {
+  local eigen
+  eigen=$(grep --only-matching --max-count=1 --extended-regexp -e '-isystem [^ ]*eigen3' build/release/compile_commands.json)
+  python3 tests/headers.py build/release/consumers/installed/include "${eigen#-isystem }"
+}
+run_tests() { ctest --preset "$1" --parallel "$(nproc)" --no-tests=error "${@:2}"; }
+same_tables() { bash tests/same_tables.sh build/release/bin/cardiac "build/$1/bin/cardiac" "$2"; }
 extremes() { timeout "$1" build/release/bin/cardiac validate extreme --out build/extremes "${@:2}"; }
+
+check "format" check_format
+check "layers" python3 tests/layers.py
+check "build" build release
+[[ " ${failed[*]} " == *" build "* ]] && finish
+check "consumers" bash tests/consumers.sh build/release
+check "headers" check_headers
+[[ $tidy == yes ]] && check "clang-tidy" check_tidy
+check "tests" run_tests release
+if [[ $quick == no || $plain == yes ]]; then
+  check "plain: build" build plain
+  check "plain: tests" run_tests plain
+fi
+[[ $plain == yes ]] && check "plain: tables" same_tables plain 0
+if [[ $sanitize == yes ]]; then
+  check "sanitizers: build" build sanitize
+  check "sanitizers: tests" run_tests sanitize
+elif [[ $quick == no ]]; then
+  check "sanitizers: build" build sanitize "${sanitized_folders[@]/#/test_polyaffine_}"
+  check "sanitizers: tests" run_tests sanitize --tests-regex "^polyaffine/($(IFS='|'; echo "${sanitized_folders[*]}"))/"
+fi
+if [[ $debug == yes ]]; then
+  check "debug: build" build debug cardiac_app
+  check "debug: tables" same_tables debug 1e-8
+fi
 if [[ $extreme == yes ]]; then
   check "extremes (quick, 2 minutes)" extremes 120 --quick
   check "extremes (15 minutes)" extremes 900
 fi
 [[ $cost == yes ]] && check "cost of scenes" bash tests/footprint.sh
-
-if ((${#failed[@]})); then
-  printf 'Failed: %s\n' "${failed[@]}" >&2
-  exit 1
-fi
+finish
