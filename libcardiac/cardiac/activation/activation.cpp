@@ -6,7 +6,7 @@
 
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/geometry/eikonal.hpp>
-#include <polyaffine/geometry/geodesic_regions.hpp>
+#include <polyaffine/geometry/locate.hpp>
 
 namespace cardiac {
 
@@ -57,22 +57,6 @@ Vector activation_times(const TetMesh& mesh, const Points& fibre, const Conducti
     sources.push_back({at, sites[s].onset});
   }
   return polyaffine::arrival_times(mesh, sources, conduction_tensors(fibre, velocity));
-}
-
-Vector region_means(const TetMesh& mesh, const Vector& vertex_values, const std::vector<int>& label,
-                    int count) {
-  const Vector volume = polyaffine::region_volumes(mesh, label, count);
-  Vector mean = Vector::Zero(count);
-  for (int t = 0; t < mesh.num_tets(); ++t) {
-    if (label[t] < 0 || label[t] >= count) continue;
-    double sum = 0;
-    for (const int v : mesh.tets().col(t)) sum += vertex_values[v];
-    mean[label[t]] += mesh.tet_volume(t) / volume[label[t]] * sum / 4;
-  }
-  for (int r = 0; r < count; ++r)
-    if (!(volume[r] > 0))
-      throw InputError("region " + std::to_string(r) + ": found no tet, expected at least one");
-  return mean;
 }
 
 }  // namespace cardiac

@@ -33,9 +33,4 @@ polyaffine::Vector activation_times(const polyaffine::TetMesh& mesh, const polya
                                     const ConductionVelocity& velocity,
                                     const std::vector<ActivationSite>& sites, double largest_gap = 5);
 
-/// Mean over the volume of every label 0 … count − 1 (a label a tet) of a field given at the vertices.
-/// Throws InputError when a label has no tet.
-polyaffine::Vector region_means(const polyaffine::TetMesh& mesh, const polyaffine::Vector& vertex_values,
-                                const std::vector<int>& label, int count);
-
 }  // namespace cardiac

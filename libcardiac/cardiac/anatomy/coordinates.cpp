@@ -4,29 +4,27 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <sstream>
 
 #include <cardiac/anatomy/right_ventricle.hpp>
 #include <polyaffine/core/error.hpp>
-#include <polyaffine/fields/laplace.hpp>
-#include <polyaffine/mesh/surface.hpp>
 
 namespace cardiac {
 
 using polyaffine::InputError;
 using polyaffine::Mat3;
 using polyaffine::Matrix;
-using polyaffine::Points;
 using polyaffine::Vec3;
 using polyaffine::Vec4;
 using polyaffine::Vector;
 
 namespace {
 
-// Of the polynomial whose direction is the radial one.
-constexpr int kRadialDegree = 5;
+// Distances from the long axis are taken as this at least, mm: the directions about the axis end there.
+constexpr double kAxisRadius = 1e-6;
+// The apical third of the long axis, in which AHA counts four sectors.
+constexpr double kApicalThird = 1.0 / 3;
 
-// A unit vector v/|v| with its derivatives, column J by X_J.
+// The unit vector e = v/|v| and its gradient ∂e/∂X_J (column J), from that of v: (1 − e eᵀ) ∇v / |v|.
 struct Direction {
   Vec3 value;
   Mat3 gradient;
@@ -48,20 +46,6 @@ void require_label(const polyaffine::TetMesh& mesh, int label, const char* name)
                    " of the surface \"" + name + "\" (labels found: " + found + "), expected one; " + name +
                    "_label must be a label of the mesh");
 }
-
-std::string text(const Vec3& v) {
-  std::ostringstream out;
-  out << '(' << v.x() << ", " << v.y() << ", " << v.z() << ')';
-  return out.str();
-}
-
-// Of the mean depth gradient of the left wall: what the even depth and the arc length get where the wall is
-// not the left one.
-constexpr double kOffWall = 0.1;
-// Of the length of the cavity: nearer to the long axis a point says nothing about directions across it.
-constexpr double kOnAxis = 0.05;
-// Rotational coordinate of the anterior insertion of the right ventricle: between segments 1 and 2.
-constexpr double kInsertion = polyaffine::kPi / 6;
 
 }  // namespace
 
@@ -88,142 +72,9 @@ VentricularCoordinates::VentricularCoordinates(const polyaffine::TetMesh& mesh, 
   if (right_) right_->settle(mesh, labels, axis_, anterior_);
 }
 
-void VentricularCoordinates::orient_by(const AnatomyOptions& options) {
-  const auto across = [&](const Vec3& point, const char* name) {
-    const Vec3 d = from_axis(point);
-    if (!(d.norm() > kOnAxis * cavity_length_))
-      throw InputError(std::string(name) + ": found " + text(point) + " mm, on the long axis " + text(axis_) +
-                       ", expected a point in the wall");
-    return Vec3(d.normalized());
-  };
-  if (options.septum_point) {
-    orient(axis_.cross(across(*options.septum_point, "septum point (anatomy.septum_point, --septum-point)")));
-  } else if (options.rv_insertion_point) {
-    const Vec3 d = across(*options.rv_insertion_point,
-                          "insertion point (anatomy.rv_insertion_point, --rv-insertion-point)");
-    orient(std::cos(kInsertion) * d + std::sin(kInsertion) * axis_.cross(d));
-  } else {
-    orient(options.anterior.value_or(Vec3::UnitY()));
-    anterior_assumed_ = !options.anterior;
-  }
-}
-
-void VentricularCoordinates::orient(const Vec3& anterior) {
-  const Vec3 across = anterior - anterior.dot(axis_) * axis_;
-  if (!(across.norm() > 0.05 * anterior.norm()))  // about 3°: below it the direction says nothing
-    throw InputError("anterior direction (anatomy.anterior_direction, --anterior): found " + text(anterior) +
-                     ", parallel to the long axis " + text(axis_) + ", expected a direction across it");
-  anterior_ = across.normalized();
-  septal_ = -axis_.cross(anterior_);
-}
-
-void VentricularCoordinates::find_insertions(const polyaffine::TetMesh& mesh) {
-  orient(axis_.unitOrthogonal());
-  std::vector<double> angle, weight;
-  double whole = 0;
-  for (int t = 0; t < mesh.num_tets(); ++t) {
-    const Vec4 centre = Vec4::Constant(0.25);
-    const Vec3 X = mesh.tet_centroid(t);
-    const double h = long_axis_height(X);
-    if (h < 1.0 / 3 || h > 1 || right_->border(t, centre).w > 0.5) continue;
-    const auto s = space_->element_sample(t, centre);
-    const Vec3 d = from_axis(X);
-    const double share =
-        mesh.tet_volume(t) * std::abs(axis_.cross(d).dot(axis_.cross(s.slope(t_)))) / d.squaredNorm();
-    whole += share;
-    if (right_->septal(t, centre) <= 0) continue;
-    angle.push_back(plain_angle(X));
-    weight.push_back(share);
-  }
-  const Arc septum = arc_of(angle, weight, whole);
-  const double half = septum.half_width;
-  if (!(half > 0 && half < 0.9 * polyaffine::kPi))
-    throw InputError("septum: found " + std::to_string(2 * half * 180 / polyaffine::kPi) +
-                     " degrees of the left ventricle between the two endocardia, expected more than 0 and "
-                     "less than 324");
-  orient(axis_.cross(std::cos(septum.middle) * anterior_ + std::sin(septum.middle) * septal_));
-
-  const double quarter = (polyaffine::kPi - half) / 2;
-  std::vector<double> from, to;
-  for (int turn = -2; turn <= 1; ++turn)
-    for (int k = 0; k < 6; ++k) {  // anterior insertion, middle of the septum, inferior insertion, the rest
-      const double at = k < 3 ? (k - 1) * half : half + (k - 2) * quarter;
-      from.push_back(polyaffine::kPi / 2 + at + turn * 2 * polyaffine::kPi);
-      to.push_back(polyaffine::kPi / 6 + k * polyaffine::kPi / 3 + turn * 2 * polyaffine::kPi);
-    }
-  stretch_.emplace(from, to);
-}
-
 Vec3 VentricularCoordinates::from_axis(const Vec3& X) const {
   const Vec3 d = X - base_centre_;
   return d - d.dot(axis_) * axis_;
-}
-
-void VentricularCoordinates::solve_transmural(const polyaffine::TetMesh& mesh, const SurfaceLabels& labels) {
-  std::vector<polyaffine::NodeValue> values;
-  for (const int n : space_->surface_nodes(mesh, {labels.endo})) values.push_back({n, 0.0});
-  for (const int n : space_->surface_nodes(mesh, {labels.epi})) values.push_back({n, 1.0});
-  if (right_)
-    for (const int n : space_->surface_nodes(mesh, {*labels.rv_endo})) values.push_back({n, 1.0});
-  const Vector harmonic = right_ ? right_->left_depth() : polyaffine::solve_laplace(*space_, values);
-  const polyaffine::WallPoints points = space_->wall_points(3);
-  Vector steepness(points.weights.size());
-  Vector left = points.weights;  // zero beyond the left wall and the septum
-  for (Eigen::Index q = 0; q < steepness.size(); ++q) {
-    const auto s = space_->element_sample(points.tet[q], points.barycentric.col(q));
-    steepness[q] = s.slope(harmonic).norm();
-    if (right_ && s.value(right_->transventricular()) > 0.5) left[q] = 0;
-  }
-  if (right_) least_steepness_ = kOffWall * left.dot(steepness) / left.sum();
-  t_ = polyaffine::solve_diffusion(
-      *space_, points,
-      [&](std::size_t q) {
-        return polyaffine::DiffusionPoint{
-            std::max(steepness[static_cast<Eigen::Index>(q)], least_steepness_) * Mat3::Identity()};
-      },
-      values);
-  Points X(3, points.barycentric.cols()), gradient(3, X.cols());
-  for (Eigen::Index q = 0; q < X.cols(); ++q) {
-    const auto s = space_->element_sample(points.tet[q], points.barycentric.col(q));
-    X.col(q) = s.value(space_->nodes());
-    gradient.col(q) = s.slope(t_);
-  }
-  std::vector<Eigen::Index> inside;
-  for (Eigen::Index q = 0; q < left.size(); ++q)
-    if (left[q] > 0) inside.push_back(q);
-  radial_.emplace(X(Eigen::all, inside), gradient(Eigen::all, inside), left(inside), kRadialDegree);
-}
-
-void VentricularCoordinates::solve_apicobasal(const polyaffine::TetMesh& mesh, const SurfaceLabels& labels) {
-  std::vector<polyaffine::NodeValue> values;
-  for (const int n : space_->surface_nodes(mesh, {labels.base}))
-    values.push_back({n, 1 / from_axis(space_->nodes().col(n)).norm()});
-  const polyaffine::WallPoints points = space_->wall_points(4);
-  slope_ = polyaffine::solve_diffusion(
-      *space_, points,
-      [&](std::size_t q) {
-        const auto k = static_cast<Eigen::Index>(q);
-        const auto s = space_->element_sample(points.tet[q], points.barycentric.col(k));
-        const Vec3 d = from_axis(s.value(space_->nodes()));
-        const double r = d.norm();
-        const double steepness = std::max(s.slope(t_).norm(), least_steepness_);
-        return polyaffine::DiffusionPoint{steepness / r * Mat3::Identity(), r, d / r};
-      },
-      values);
-
-  rest_.resize(slope_.size());
-  for (Eigen::Index n = 0; n < slope_.size(); ++n)
-    rest_[n] = 1 - slope_[n] * from_axis(space_->nodes().col(n)).norm();
-  for (const auto& [node, value] : values) rest_[node] = 0;
-  double volume = 0, flux = 0;
-  for (int t = 0; t < mesh.num_tets(); ++t) {
-    const CoordinateSample at = sample(t, Vec4::Constant(0.25));
-    if (at.w > 0.5) continue;
-    const double share = mesh.tet_volume(t);
-    volume += share;
-    flux += share * at.grad_u.norm();
-  }
-  arc_length_ = volume / flux;
 }
 
 CoordinateSample VentricularCoordinates::sample(int tet, const Vec4& barycentric) const {
@@ -234,7 +85,7 @@ CoordinateSample VentricularCoordinates::sample(int tet, const Vec4& barycentric
 
   const Vec3 X = s.value(space_->nodes());
   const Vec3 d = from_axis(X);
-  const double r = std::max(d.norm(), 1e-6);
+  const double r = std::max(d.norm(), kAxisRadius);
   const Vec3 away = d / r;
   out.psi = std::atan2(d.dot(septal_), d.dot(anterior_));
   out.grad_psi = -axis_.cross(away) / r;
@@ -252,6 +103,14 @@ CoordinateSample VentricularCoordinates::sample(int tet, const Vec4& barycentric
   out.u = r * g / sum;
   out.grad_u = (h * grad_rg - r * g * s.slope(rest_)) / (sum * sum);
 
+  set_axes(X, away, r, out);
+  return out;
+}
+
+// e_r is the direction of the radial polynomial, e_c that of rotation, a × e_away, made perpendicular to it,
+// and e_l = e_r × e_c; the derivatives follow by the product rule.
+void VentricularCoordinates::set_axes(const Vec3& X, const Vec3& away, double r,
+                                      CoordinateSample& out) const {
   const auto radial = radial_->sample(X);
   const Direction e_r = direction(radial.value, radial.gradient);
   const Vec3 round = axis_.cross(away);
@@ -266,7 +125,6 @@ CoordinateSample VentricularCoordinates::sample(int tet, const Vec4& barycentric
     const Vec3 dc = e_c.gradient.col(J);
     out.dQ[J] << dr.cross(e_c.value) + e_r.value.cross(dc), dc, dr;
   }
-  return out;
 }
 
 CoordinateSample VentricularCoordinates::wall_sample(int tet, const Vec4& barycentric) const {
@@ -323,7 +181,7 @@ double VentricularCoordinates::plain_angle(const Vec3& X) const {
 }
 
 double VentricularCoordinates::sector_angle(const Vec3& X) const {
-  return long_axis_height(X) < 1.0 / 3 ? plain_angle(X) : angle(X);
+  return long_axis_height(X) < kApicalThird ? plain_angle(X) : angle(X);
 }
 
 }  // namespace cardiac

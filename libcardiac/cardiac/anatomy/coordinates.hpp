@@ -109,7 +109,11 @@ class VentricularCoordinates {
   void orient(const polyaffine::Vec3& anterior);
   void find_insertions(const polyaffine::TetMesh& mesh);
   void solve_transmural(const polyaffine::TetMesh& mesh, const SurfaceLabels& labels);
+  void fit_radial(const polyaffine::WallPoints& points, const polyaffine::Vector& weights);
   void solve_apicobasal(const polyaffine::TetMesh& mesh, const SurfaceLabels& labels);
+  void measure_arc_length(const polyaffine::TetMesh& mesh);
+  void set_axes(const polyaffine::Vec3& X, const polyaffine::Vec3& away, double r,
+                CoordinateSample& out) const;
   polyaffine::Vec3 from_axis(const polyaffine::Vec3& X) const;  ///< perpendicular from the long axis, mm
 
   std::shared_ptr<const polyaffine::LagrangeBasis> space_;

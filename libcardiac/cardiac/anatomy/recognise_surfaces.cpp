@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <queue>
 #include <sstream>
 #include <tuple>
@@ -26,13 +27,27 @@ using polyaffine::TetMesh;
 using polyaffine::Triangles;
 using polyaffine::Vector;
 
-constexpr int kUnknown = -1, kOutside = 0, kInside = 1;  // of a triangle while it is being found
+// What a triangle is while it is being found.
+constexpr int kUnknown = -1, kOutside = 0, kInside = 1;
+// Rays from a triangle (48 tell shares apart by 2 %), and the most triangles that are probed: a larger
+// surface is probed in every n-th one.
 constexpr int kRays = 48, kMostProbes = 20000;
-constexpr double kEnclosed = 0.6, kFree = 0.2;       // share of rays that meet the wall again
-constexpr double kFacesUp = 0.6, kFacesAside = 0.3;  // cosine between normal and direction of the opening
-constexpr double kPocket = 0.05;                     // of the largest cavity's area: too small for a cavity
-constexpr double kTapered = -0.26;                   // cosine between normals of faces that meet at 75°
-constexpr double kSmooth = 0.7;                      // of faces that bend by 45°: less is no edge of a base
+// A triangle is inside or outside beyond doubt when more or less than this share of its rays meets the wall
+// again: of a rim, half of them do.
+constexpr double kEnclosed = 0.6, kFree = 0.2;
+// Cosines between a normal outside and the direction of the opening. The base goes on from the rim while it
+// faces up (53°); what faces aside or down (73° and more) is epicardium beyond doubt.
+constexpr double kFacesUp = 0.6, kFacesAside = 0.3;
+// A part of the inside that is smaller than this share of the largest cavity's area is a pocket, not a
+// cavity.
+constexpr double kPocket = 0.05;
+// Cosines between the normals of neighbours. A wall whose faces meet at less than 75° tapers to an edge
+// (normals 105° apart); faces that bend by less than 45° have no edge of a base between them.
+constexpr double kTapered = -0.26, kSmooth = 0.7;
+// Borders lose their teeth in this many passes; each takes the last triangle of a tooth.
+constexpr int kSmoothings = 3;
+// A ray leaves its own triangle by this share of the edge before it may meet the wall.
+constexpr double kOffTriangle = 1e-6;
 
 struct Surface {
   Points centre, normal;  ///< 3 × triangles, normals of unit length
@@ -64,7 +79,7 @@ double enclosure(const polyaffine::TriangleTree& tree, const Vec3& from, const V
   for (int i = 0; i < kRays; ++i) {
     const double r2 = (i + 0.5) / kRays, r = std::sqrt(r2), phi = golden * i;
     const Vec3 direction = r * (std::cos(phi) * x + std::sin(phi) * y) + std::sqrt(1 - r2) * normal;
-    hits += tree.hit(from, direction, 1e-6 * edge);
+    hits += tree.hit(from, direction, kOffTriangle * edge);
   }
   return static_cast<double>(hits) / kRays;
 }
@@ -104,7 +119,7 @@ std::vector<int> inside_or_outside(const Points& points, const Triangles& triang
   }
   std::vector<int> label = watershed(s, std::move(seeds));
   // A triangle that two of another kind surround belongs to them: borders without teeth.
-  for (int pass = 0; pass < 3; ++pass)
+  for (int pass = 0; pass < kSmoothings; ++pass)
     for (int f = 0; f < size; ++f) {
       int others = 0;
       for (int k = 0; k < 3; ++k) others += label[s.across(k, f)] != label[f];
@@ -156,7 +171,32 @@ void order_cavities(const TetMesh& mesh, const Surface& s, std::vector<std::vect
   notes.push_back(text.str());
 }
 
-/// Base or epicardium for all triangles outside.
+/// Labels as base what is outside, faces the direction and hangs together with the rim of a cavity.
+void spread_base(const Surface& s, const std::vector<int>& cavity, const Vector& facing,
+                 const std::vector<int>& inside, std::vector<int>& label) {
+  std::vector<int> front = cavity;
+  while (!front.empty()) {
+    const int f = front.back();
+    front.pop_back();
+    for (int k = 0; k < 3; ++k) {
+      const int n = s.across(k, f);
+      if (n < 0 || inside[n] == kInside || label[n] == kBase || facing[n] < kFacesUp) continue;
+      label[n] = kBase;
+      front.push_back(n);
+    }
+  }
+}
+
+/// The surface without the ways from a triangle inside to another one.
+Surface outside_of(Surface s, const std::vector<int>& inside) {
+  for (Eigen::Index f = 0; f < s.across.cols(); ++f)
+    for (int k = 0; k < 3; ++k)
+      if (inside[f] == kInside || inside[s.across(k, f)] == kInside) s.across(k, f) = -1;
+  return s;
+}
+
+/// Base or epicardium for all triangles outside: seeds of both, a watershed between them, and base along
+/// every rim.
 std::vector<int> divide_outside(const Surface& s, const std::vector<std::vector<int>>& found,
                                 const std::vector<int>& inside) {
   const auto size = static_cast<int>(inside.size());
@@ -166,45 +206,43 @@ std::vector<int> divide_outside(const Surface& s, const std::vector<std::vector<
     const Vec3 up = (s.normal(Eigen::all, faces) * s.area(faces)).normalized();
     const Vector facing = s.normal.transpose() * up;
     most_up = most_up.cwiseMax(facing);
-    std::vector<int> front = faces;
-    while (!front.empty()) {
-      const int f = front.back();
-      front.pop_back();
-      for (int k = 0; k < 3; ++k) {
-        const int n = s.across(k, f);
-        if (n < 0 || inside[n] == kInside || label[n] == kBase || facing[n] < kFacesUp) continue;
-        label[n] = kBase;
-        front.push_back(n);
-      }
-    }
+    spread_base(s, faces, facing, inside, label);
   }
   if (std::ranges::count(label, kBase) == 0) return label;
   for (int f = 0; f < size; ++f)
     if (label[f] == kUnknown && inside[f] == kOutside && most_up[f] < kFacesAside) label[f] = kEpicardium;
-  Surface outside = s;
-  for (int f = 0; f < size; ++f)
-    for (int k = 0; k < 3; ++k)
-      if (inside[f] == kInside || inside[s.across(k, f)] == kInside) outside.across(k, f) = -1;
-  label = watershed(outside, std::move(label));
-  // The base reaches every rim.
+  label = watershed(outside_of(s, inside), std::move(label));
   for (int f = 0; f < size; ++f)
     for (int k = 0; k < 3; ++k)
       if (inside[f] == kOutside && inside[s.across(k, f)] == kInside) label[f] = kBase;
   return label;
 }
 
-/// The rims of cavities (inside kInside, kOutside else) at which the wall tapers to an edge.
-void check_rims(const Points& points, const Triangles& triangles, const Surface& s,
-                const std::vector<std::vector<int>>& found, const std::vector<int>& inside) {
-  const auto part = polyaffine::connected_parts(s.across, [&](int f, int k) {
+/// Number of each triangle's smooth part of the inside or of the outside.
+std::vector<int> smooth_parts(const Surface& s, const std::vector<int>& inside) {
+  return polyaffine::connected_parts(s.across, [&](int f, int k) {
     const int n = s.across(k, f);
     return inside[f] == inside[n] && s.normal.col(f).dot(s.normal.col(n)) > kSmooth;
   });
+}
+
+/// The largest smooth part of the outside, which is the epicardium; nothing without an outside.
+std::optional<int> epicardial_part(const Surface& s, const std::vector<int>& part,
+                                   const std::vector<int>& inside) {
   std::map<int, double> outside;
   for (std::size_t f = 0; f < part.size(); ++f)
     if (inside[f] == kOutside) outside[part[f]] += s.area[static_cast<Eigen::Index>(f)];
-  if (outside.empty()) return;
-  const int epicardium = std::ranges::max_element(outside, {}, [](const auto& p) { return p.second; })->first;
+  if (outside.empty()) return {};
+  return std::ranges::max_element(outside, {}, [](const auto& p) { return p.second; })->first;
+}
+
+/// Throws InputError when at most of a cavity's rim the wall tapers to an edge from which the epicardium goes
+/// on.
+void check_rims(const Points& points, const Triangles& triangles, const Surface& s,
+                const std::vector<std::vector<int>>& found, const std::vector<int>& inside) {
+  const std::vector<int> part = smooth_parts(s, inside);
+  const std::optional<int> epicardium = epicardial_part(s, part, inside);
+  if (!epicardium) return;
   RingEdges bare;
   for (const auto& faces : found) {
     double rim = 0, tapered = 0;
@@ -215,7 +253,7 @@ void check_rims(const Points& points, const Triangles& triangles, const Surface&
         if (inside[n] == kInside) continue;
         const double length = (points.col(a) - points.col(b)).norm();
         rim += length;
-        if (part[n] != epicardium || s.normal.col(f).dot(s.normal.col(n)) > kTapered) continue;
+        if (part[n] != *epicardium || s.normal.col(f).dot(s.normal.col(n)) > kTapered) continue;
         tapered += length;
         edges.push_back({a, b});
       }

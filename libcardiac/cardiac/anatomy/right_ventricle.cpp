@@ -21,10 +21,17 @@ using polyaffine::Vector;
 
 namespace {
 
-// Of the height of the right cavity: the borders of the free wall are averaged above it.
+// The borders of the right free wall are averaged above this share of the cavity's height: below it the wall
+// closes to the apex, where angles about the axis mean little.
 constexpr double kArcFrom = 0.2;
-// Values of w between which one ventricle gives way to the other.
+// Values of w between which one ventricle gives way to the other: w only comes close to 0 and 1 in the wall.
 constexpr double kLeftEnd = 0.1, kRightEnd = 0.9;
+// The bottom of a cavity is its surface below this share of its height, and what is lowest depends on the
+// axis that is looked for: a few rounds settle both.
+constexpr double kBottom = 0.1;
+constexpr int kAxisRounds = 5;
+// Distances from the axis are taken as this at least, mm: the directions about it end there.
+constexpr double kAxisRadius = 1e-6;
 
 void prescribe(std::vector<NodeValue>& values, const std::vector<int>& nodes, double value) {
   for (const int n : nodes) values.push_back({n, value});
@@ -42,6 +49,7 @@ Arc arc_of(const std::vector<double>& angle, const std::vector<double>& weight, 
   return {std::atan2(sine, cosine), kPi * sum / whole};
 }
 
+// Begins with the point of the surface that is farthest from the rim.
 CavityAxis cavity_axis(const polyaffine::TetMesh& mesh, int label, const Vec3& rim) {
   const polyaffine::Triangles faces = mesh.surface({label});
   const Vector areas = polyaffine::triangle_areas(mesh.points(), faces);
@@ -51,7 +59,7 @@ CavityAxis cavity_axis(const polyaffine::TetMesh& mesh, int label, const Vec3& r
   CavityAxis out{Vec3::Zero(), rim};
   for (const int p : mesh.surface_points({label}))
     if ((mesh.points().col(p) - rim).norm() > (out.bottom - rim).norm()) out.bottom = mesh.points().col(p);
-  for (int iteration = 0; iteration < 5; ++iteration) {
+  for (int iteration = 0; iteration < kAxisRounds; ++iteration) {
     out.direction = (rim - out.bottom).normalized();
     double lowest = 0;
     for (Eigen::Index f = 0; f < faces.cols(); ++f)
@@ -59,7 +67,7 @@ CavityAxis cavity_axis(const polyaffine::TetMesh& mesh, int label, const Vec3& r
     Vec3 sum = Vec3::Zero();
     double area = 0;
     for (Eigen::Index f = 0; f < faces.cols(); ++f) {
-      if (out.direction.dot(middle(f) - rim) > 0.9 * lowest) continue;
+      if (out.direction.dot(middle(f) - rim) > (1 - kBottom) * lowest) continue;
       sum += areas[f] * middle(f);
       area += areas[f];
     }
@@ -162,7 +170,7 @@ RightVentricularCoordinates::Sample RightVentricularCoordinates::sample(int tet,
   out.t = s.value(t_);
   out.grad_t = s.slope(t_);
   const Vec3 d = from_axis(s.value(space_->nodes()));
-  const double r = std::max(d.norm(), 1e-6);
+  const double r = std::max(d.norm(), kAxisRadius);
   const double angle = std::atan2(d.dot(outward_), d.dot(anterior_));
   out.psi = std::remainder(angle - middle_, 2 * kPi) / half_angle_;
   out.grad_psi = -long_axis_.cross(d) / (r * r * half_angle_);

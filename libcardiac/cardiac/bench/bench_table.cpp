@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include <cardiac/report/csv_writer.hpp>
 #include <cardiac/report/text.hpp>
 
 namespace cardiac {
@@ -9,36 +10,18 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-// Quotes doubled, as inside a quoted CSV field.
-std::string quoted(const std::string& text) {
-  std::string out;
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out;
-}
-
-std::string beat_fields(const BenchRow& row) {
-  if (!row.beat) return ",,,,,";
-  std::string out;
-  for (const double value : {row.beat->ef_points, row.beat->gls_points, row.beat->peak_strain,
-                             row.beat->apex_peak_strain, row.beat->real_time_factor})
-    out += "," + number_text(value);
-  return out;
-}
-
-std::string csv_row(const BenchRow& row) {
+void add_row(const BenchRow& row, CsvWriter& csv) {
   const auto known = [&](double value) { return row.converged ? value : kNone; };
-  std::string out = row.scene + "," + row.method + "," + row.preset;
-  for (const int count : {row.mesh_tets, row.control_nodes, row.dofs, row.integration_points})
-    out += "," + std::to_string(count);
-  for (const double value :
-       {row.setup_s, row.solve_s, known(row.cavity_ratio), known(row.errors.displacement_percent),
-        known(row.errors.volume_percent), known(row.errors.max_segment_strain), known(row.errors.apex_strain),
-        row.speedup_over_fem})
-    out += "," + number_text(value);
-  out += "," + row.integration + "," + number_text(known(row.errors.compliance_ratio)) + "," +
-         std::to_string(row.load_steps) + "," + std::to_string(row.newton_iterations) + "," +
-         (row.converged ? "yes" : "no") + ",\"" + quoted(row.settings) + "\"" + beat_fields(row);
-  return out + "\n";
+  const BeatErrors beat = row.beat.value_or(BeatErrors{kNone, kNone, kNone, kNone, kNone});
+  csv << row.scene << row.method << row.preset << row.mesh_tets << row.control_nodes << row.dofs
+      << row.integration_points << row.setup_s << row.solve_s << known(row.cavity_ratio)
+      << known(row.errors.displacement_percent) << known(row.errors.volume_percent)
+      << known(row.errors.max_segment_strain) << known(row.errors.apex_strain) << row.speedup_over_fem
+      << row.integration << known(row.errors.compliance_ratio) << row.load_steps << row.newton_iterations
+      << (row.converged ? "yes" : "no");
+  csv.quoted(row.settings) << beat.ef_points << beat.gls_points << beat.peak_strain << beat.apex_peak_strain
+                           << beat.real_time_factor;
+  csv.end_row();
 }
 
 std::string cell(double value, int decimals) {
@@ -88,21 +71,22 @@ std::string comparison(const std::vector<BenchRow>& rows) {
 }  // namespace
 
 std::string bench_csv(const std::vector<SceneResult>& results) {
-  std::string out =
+  std::string notes =
       "# One thread; times are processor time of this run. setup_s: from the mesh to the model ready to "
       "solve; "
       "solve_s: all loads from zero, median of repeated short solves.\n"
       "# Errors against the finest full-order solution of the scene, at its integration points: displacement "
       "relative L2, cavity volume, Green-Lagrange normal strains averaged over segments (1-16, apex 17).\n";
-  for (const SceneResult& r : results) out += "# reference of " + r.scene + ": " + r.reference + "\n";
-  out +=
+  for (const SceneResult& r : results) notes += "# reference of " + r.scene + ": " + r.reference + "\n";
+  CsvWriter csv(
+      notes +
       "scene,method,preset,mesh_tets,control_nodes,dofs,integration_points,setup_s,solve_s,cavity_ratio,"
       "displacement_error_percent,volume_error_percent,max_segment_strain_error,apex_strain_error,"
       "speedup_over_fem,integration,compliance_ratio,load_steps,newton_iterations,converged,settings,"
-      "ef_error_points,gls_error_points,peak_strain_error,apex_peak_strain_error,real_time_factor\n";
+      "ef_error_points,gls_error_points,peak_strain_error,apex_peak_strain_error,real_time_factor");
   for (const SceneResult& r : results)
-    for (const BenchRow& row : r.rows) out += csv_row(row);
-  return out;
+    for (const BenchRow& row : r.rows) add_row(row, csv);
+  return csv.text();
 }
 
 std::string bench_markdown(const std::vector<SceneResult>& results) {

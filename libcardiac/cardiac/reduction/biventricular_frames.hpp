@@ -38,9 +38,23 @@ class BiventricularFrames : public SegmentFrames {
     double slope = 0;       ///< of the share by u
   };
   Interval interval(double u) const;
-  void add_right(const CoordinateSample& at, const RightVentricularCoordinates::Sample& right,
-                 const polyaffine::Vec3& X, double factor, const polyaffine::Vec3& factor_gradient,
-                 std::vector<polyaffine::FrameSample>& frames) const;
+  // A point in or near the right free wall: where it is, in the coordinates of both ventricles.
+  struct RightPoint {
+    polyaffine::Vec3 X;
+    CoordinateSample left;
+    RightVentricularCoordinates::Sample right;
+    RightVentricularCoordinates::Border border;
+  };
+  void set_local(const RightRow& row, int node, const RightPoint& at, polyaffine::FrameSample& f) const;
+  void add_row(std::size_t k, double share, double slope, const RightPoint& at,
+               std::vector<polyaffine::FrameSample>& frames) const;
+  // The part of an interval between two breaks of ψ (nodes of its rows, ends of the free wall), numbered over
+  // all intervals, and the place of ψ in it, 0 to 1.
+  struct Sector {
+    int number = 0;
+    double place = 0;
+  };
+  Sector sector(std::size_t lower, double psi) const;
 
   const RightVentricularCoordinates& right_;
   std::vector<RightRow> rows_;  // with the base row

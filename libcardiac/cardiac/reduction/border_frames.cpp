@@ -14,11 +14,36 @@ using polyaffine::Vec4;
 
 namespace {
 
-constexpr double kBeside = 1e-3;  // rad
+// Angle (rad) by which one steps off a border to ask for the segment beside it: far above rounding and far
+// below the width of a sector.
+constexpr double kBeside = 1e-3;
 
 int kind_at(const std::vector<int>& kind, int ring, double psi) {
   const double middle_height = (ring - 0.5) / 3;
   return kind[aha_segment(middle_height, psi) - 1];
+}
+
+// The kinds of a ring on the two sides of the angle of a border.
+struct KindsBeside {
+  int before = 0, behind = 0;
+  bool operator==(const KindsBeside&) const = default;
+  bool alike() const { return before == behind; }
+};
+KindsBeside kinds_beside(const std::vector<int>& kind, int ring, double border) {
+  return {kind_at(kind, ring, border - kBeside), kind_at(kind, ring, border + kBeside)};
+}
+
+// Whether four segments meet in a corner of the border between different kinds,
+//
+//     high.before │ high.behind
+//     ────────────┼────────────
+//      low.before │ low.behind
+//
+// so that it does not pass straight through (up where the rings are the same, across where each ring has one
+// kind) or stay away.
+bool is_corner(const KindsBeside& low, const KindsBeside& high) {
+  const bool straight_up = low == high, straight_across = low.alike() && high.alike();
+  return !straight_up && !straight_across;
 }
 
 }  // namespace
@@ -31,35 +56,38 @@ BorderFrames::BorderFrames(std::shared_ptr<const SegmentFrames> frames, const st
   add_between_rings(kind);
 }
 
+// Borders between two segments of one ring.
 void BorderFrames::add_in_rings(const std::vector<int>& kind) {
-  for (int ring = 1; ring <= 3; ++ring) {
+  for (int ring = 1; ring <= kAhaRings; ++ring) {
     const double sector = 2 * kPi / aha_ring_size(ring);
     for (int j = 0; j < aha_ring_size(ring); ++j) {
       const double border = (j + 0.5) * sector;
-      if (kind_at(kind, ring, border - kBeside) != kind_at(kind, ring, border + kBeside))
-        hats_.push_back({ring, ring, border, sector / 2});
+      if (!kinds_beside(kind, ring, border).alike()) hats_.push_back({ring, ring, border, sector / 2});
     }
   }
 }
 
+// Borders between a ring and the next, and the corners on them; in steps of the finer of the two rings.
 void BorderFrames::add_between_rings(const std::vector<int>& kind) {
-  for (int low = 0; low <= 2; ++low) {
-    const int high = low + 1, n = std::max(aha_ring_size(low), aha_ring_size(high));
-    const double sector = 2 * kPi / n;
-    for (int j = 0; j < n; ++j) {
+  for (int low = 0; low < kAhaRings; ++low) {
+    const int high = low + 1;
+    const int sectors = std::max(aha_ring_size(low), aha_ring_size(high));
+    const double sector = 2 * kPi / sectors;
+    for (int j = 0; j < sectors; ++j) {
       const double middle = j * sector, border = middle + sector / 2;
       if (kind_at(kind, low, middle) != kind_at(kind, high, middle))
         hats_.push_back({low, high, middle, sector});
-      const auto below =
-          std::pair(kind_at(kind, low, border - kBeside), kind_at(kind, low, border + kBeside));
-      const auto above =
-          std::pair(kind_at(kind, high, border - kBeside), kind_at(kind, high, border + kBeside));
-      const bool straight = below == above || (below.first == below.second && above.first == above.second);
-      if (!straight) hats_.push_back({low, high, border, sector / 2});
+      if (is_corner(kinds_beside(kind, low, border), kinds_beside(kind, high, border)))
+        hats_.push_back({low, high, border, sector / 2});
     }
   }
 }
 
+// A hat along the wall: the tent of its ring, or over the border of two rings a/(a + b),
+//
+//                 1 at the border                 a   distance to the nearer ring's nodes
+//        0  ────╱╲────  0                         b   distance to the border
+//     low ring      high ring                     both in u, on the side of the border where the point lies
 BorderFrames::Value BorderFrames::along(const Hat& hat, const CoordinateSample& at, const Vec3& X) const {
   if (hat.low == hat.high) {
     const double top = positions_[hat.low];
@@ -72,10 +100,12 @@ BorderFrames::Value BorderFrames::along(const Hat& hat, const CoordinateSample& 
   if (at.u <= low || at.u >= high) return {};
   const VentricularCoordinates& coordinates = frames_->coordinates();
   const double u_per_mm = 1 / coordinates.arc_length();
+  const double border_height = hat.low / 3.0;  // rings are thirds of the long axis
   const double height =
-      coordinates.cavity_length() * (coordinates.long_axis_height(X) - hat.low / 3.0);  // over the border, mm
-  const double side = height > 0 ? -1 : 1;
-  const double a = height > 0 ? high - at.u : at.u - low, b = -side * u_per_mm * height;
+      coordinates.cavity_length() * (coordinates.long_axis_height(X) - border_height);  // mm
+  const bool above = height > 0;
+  const double side = above ? -1 : 1;  // sign of ∂a/∂u
+  const double a = above ? high - at.u : at.u - low, b = -side * u_per_mm * height;
   const Vec3 grad_a = side * at.grad_u, grad_b = -side * u_per_mm * coordinates.axis();
   return {a / (a + b), (b * grad_a - a * grad_b) / ((a + b) * (a + b))};
 }

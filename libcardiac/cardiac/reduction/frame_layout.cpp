@@ -17,7 +17,8 @@ using polyaffine::Vec4;
 
 namespace {
 
-constexpr int kFewestNodes = 3;  // of a ring: with fewer, weights would reach around the axis
+// Fewest nodes of a ring: with fewer, weights would reach around the axis.
+constexpr int kFewestNodes = 3;
 
 void check(const RingOptions& options) {
   const auto& nodes = options.nodes;
@@ -38,11 +39,12 @@ bool is_aha(const RingOptions& options) {
          std::all_of(options.angles.begin(), options.angles.end(), [](double a) { return a == 0; });
 }
 
-// Apical, mid and basal ring: near the ends, where the wall bends and is held, they stand closer.
+// Positions of AHA's apical, mid and basal ring. Near the ends, where the wall bends and is held, they stand
+// closer.
 constexpr std::array<double, 3> kAhaPositions{0.2, 0.5, 0.85};
 
-// The same for the rows of the right free wall, in shares of its apicobasal range, and their numbers of
-// nodes.
+// Positions of the rows of the right free wall, in shares of its apicobasal range, for the same reason; and
+// their numbers of nodes: one for each of its segments 29, 26–28, 22–25 and 18–21.
 constexpr std::array<double, 4> kRightPositions{0, 0.3, 0.55, 0.85};
 constexpr std::array<int, 4> kRightNodes{1, 3, 4, 4};
 
@@ -68,12 +70,9 @@ int ring_of(const FrameLayout& layout, int frame) {
   return k;
 }
 
-// Rows of the right free wall. The first one lies so high that the weights of the others, which depend on the
-// angle about the right axis, vanish where the axis leaves the wall.
-void add_right_rows(const polyaffine::TetMesh& mesh, const VentricularCoordinates& coordinates,
-                    const std::vector<int>& frame, FrameLayout& layout) {
-  const RightVentricularCoordinates& right = *coordinates.right();
-  const int apex_frame = layout.cap() + kBothSegments - kAhaSegments;
+// Means of the right free wall: distance to its axis, and thickness 1/|∇t|.
+void measure_right_wall(const polyaffine::TetMesh& mesh, const RightVentricularCoordinates& right,
+                        const std::vector<int>& frame, FrameLayout& layout) {
   double volume = 0;
   for (int t = 0; t < mesh.num_tets(); ++t) {
     if (frame[t] <= layout.cap()) continue;
@@ -84,6 +83,13 @@ void add_right_rows(const polyaffine::TetMesh& mesh, const VentricularCoordinate
   }
   layout.right_radius /= volume;
   layout.right_thickness /= volume;
+}
+
+// Position of the first row: the mean of the apical region, but so high that the weights of the other rows,
+// which depend on the angle about the right axis, vanish where the axis leaves the wall (which it does within
+// a thickness of the highest tet that close to it).
+double first_right_position(const polyaffine::TetMesh& mesh, const VentricularCoordinates& coordinates,
+                            const std::vector<int>& frame, int apex_frame, const FrameLayout& layout) {
   double apex = 0, apex_volume = 0, on_axis = 0;
   for (int t = 0; t < mesh.num_tets(); ++t) {
     if (frame[t] <= layout.cap()) continue;
@@ -92,15 +98,57 @@ void add_right_rows(const polyaffine::TetMesh& mesh, const VentricularCoordinate
       apex += mesh.tet_volume(t) * u;
       apex_volume += mesh.tet_volume(t);
     }
-    if (right.radius(mesh.tet_centroid(t)) < layout.right_thickness) on_axis = std::max(on_axis, u);
+    if (coordinates.right()->radius(mesh.tet_centroid(t)) < layout.right_thickness)
+      on_axis = std::max(on_axis, u);
   }
   if (apex_volume > 0) apex /= apex_volume;
-  const double first = std::max(apex, on_axis);
-  int next = apex_frame + 1;
+  return std::max(apex, on_axis);
+}
+
+void add_right_rows(const polyaffine::TetMesh& mesh, const VentricularCoordinates& coordinates,
+                    const std::vector<int>& frame, FrameLayout& layout) {
+  measure_right_wall(mesh, *coordinates.right(), frame, layout);
+  const int apex_frame = layout.cap() + kBothSegments - kAhaSegments;
+  const double first = first_right_position(mesh, coordinates, frame, apex_frame, layout);
+  int next = apex_frame + 1;  // frames are numbered from the base to the apex
   for (std::size_t k = 0; k < kRightNodes.size(); ++k) {
     next -= kRightNodes[k];
     layout.right.push_back({first + kRightPositions[k] * (1 - first), kRightNodes[k], next});
   }
+}
+
+// Throws InputError where a region has no tet.
+void check_regions(const std::vector<int>& frame, int num_nodes) {
+  std::vector<int> tets(num_nodes, 0);
+  for (const int i : frame) ++tets[i];
+  for (int i = 0; i < num_nodes; ++i)
+    if (tets[i] == 0)
+      throw InputError("mesh: no tet lies in the region of control node " + std::to_string(i + 1) + " of " +
+                       std::to_string(num_nodes) +
+                       " (counted from the base); a finer mesh or fewer reduction.ring_nodes are needed");
+}
+
+// Means of the rings (index 0: of the cap): distance to the axis 1/|∇ψ|, thickness 1/|∇t|.
+struct Mean {
+  double volume = 0, radius = 0, thickness = 0;
+};
+std::vector<Mean> measure_rings(const polyaffine::TetMesh& mesh, const VentricularCoordinates& coordinates,
+                                const std::vector<int>& frame, const FrameLayout& layout) {
+  std::vector<Mean> means(layout.rings.size() + 1);
+  for (int t = 0; t < mesh.num_tets(); ++t) {
+    if (frame[t] > layout.cap()) continue;
+    const CoordinateSample s = coordinates.sample(t, Vec4::Constant(0.25));
+    const double v = mesh.tet_volume(t);
+    Mean& mean = means[ring_of(layout, frame[t])];
+    mean.volume += v;
+    mean.radius += v / s.grad_psi.norm();
+    mean.thickness += v / s.grad_t.norm();
+  }
+  for (Mean& mean : means) {
+    mean.radius /= mean.volume;
+    mean.thickness /= mean.volume;
+  }
+  return means;
 }
 
 }  // namespace
@@ -143,32 +191,13 @@ FrameLayout frame_layout(const polyaffine::TetMesh& mesh, const VentricularCoord
   layout.follows_segments = is_aha(options);
   const std::vector<int> frame = region_tets(mesh, coordinates, layout);
 
-  struct Mean {
-    double volume = 0, radius = 0, thickness = 0;
-  };
-  std::vector<Mean> means(layout.rings.size() + 1);
   if (coordinates.right()) add_right_rows(mesh, coordinates, frame, layout);
-  std::vector<int> tets(layout.num_nodes(), 0);
-  for (int t = 0; t < mesh.num_tets(); ++t) {
-    ++tets[frame[t]];
-    if (frame[t] > layout.cap()) continue;
-    const CoordinateSample s = coordinates.sample(t, Vec4::Constant(0.25));
-    const double v = mesh.tet_volume(t);
-    Mean& mean = means[ring_of(layout, frame[t])];
-    mean.volume += v;
-    mean.radius += v / s.grad_psi.norm();
-    mean.thickness += v / s.grad_t.norm();
-  }
-  for (int i = 0; i < layout.num_nodes(); ++i)
-    if (tets[i] == 0)
-      throw InputError("mesh: no tet lies in the region of control node " + std::to_string(i + 1) + " of " +
-                       std::to_string(layout.num_nodes()) +
-                       " (counted from the base); a finer mesh or fewer reduction.ring_nodes are needed");
-  layout.cap_thickness = means[0].thickness / means[0].volume;
+  check_regions(frame, layout.num_nodes());
+  const std::vector<Mean> means = measure_rings(mesh, coordinates, frame, layout);
+  layout.cap_thickness = means[0].thickness;
   for (std::size_t k = 0; k < layout.rings.size(); ++k) {
-    const Mean& mean = means[k + 1];
-    layout.rings[k].radius = mean.radius / mean.volume;
-    layout.rings[k].thickness = mean.thickness / mean.volume;
+    layout.rings[k].radius = means[k + 1].radius;
+    layout.rings[k].thickness = means[k + 1].thickness;
     if (layout.follows_segments && options.positions.empty()) layout.rings[k].u = kAhaPositions[k];
   }
   layout.length = std::cbrt(mesh.volume() / layout.num_nodes());

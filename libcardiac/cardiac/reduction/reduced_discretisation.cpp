@@ -54,32 +54,46 @@ std::vector<Monomial> of_cap(const std::vector<Monomial>& functions) {
   return out;
 }
 
-// Tent weights, with boundary frames at the base that carry only functions with a factor l.
+std::shared_ptr<const SegmentFrames> tent_frames(const Anatomy& anatomy, const FrameLayout& layout,
+                                                 bool base_frames) {
+  if (anatomy.coordinates->right())
+    return std::make_shared<BiventricularFrames>(anatomy.coordinates, layout, base_frames);
+  return std::make_shared<SegmentFrames>(anatomy.coordinates, layout, base_frames);
+}
+
+// The functions of every frame and the axes of their coefficients: with heart_axes longitudinal,
+// circumferential and radial, but Cartesian in the cap and in the right free wall. Those of the frames at the
+// base have a factor l, so that they vanish on the base and hold it.
+std::vector<FrameFunctions> tent_functions(const SegmentFrames& frames, const std::vector<Monomial>& all,
+                                           bool heart_axes) {
+  const FrameLayout& layout = frames.layout();
+  const auto* both = dynamic_cast<const BiventricularFrames*>(&frames);
+  const auto is_right = [both](int frame) { return both != nullptr && both->is_right(frame); };
+  const auto own = independent(frames, all);
+  std::vector<FrameFunctions> out;
+  for (int i = 0; i < frames.num_frames(); ++i) {
+    const bool is_cap = i == layout.cap(), at_base = i >= layout.num_nodes();
+    FrameFunctions functions{is_cap ? of_cap(own[i]) : own[i], heart_axes && !is_cap && !is_right(i)};
+    if (at_base) std::erase_if(functions.monomials, [](const Monomial& m) { return m[0] == 0; });
+    out.push_back(functions);
+  }
+  return out;
+}
+
+// Tent weights. Pressures do without the frames at the base, where nothing holds them; border functions are
+// further frames with the function 1 alone, in the same axes.
 void add_tent_basis(const Anatomy& anatomy, const Protocol& protocol, Discretisation& out) {
-  const auto frames = [&](bool base_frames) -> std::shared_ptr<const SegmentFrames> {
-    if (anatomy.coordinates->right())
-      return std::make_shared<BiventricularFrames>(anatomy.coordinates, out.layout, base_frames);
-    return std::make_shared<SegmentFrames>(anatomy.coordinates, out.layout, base_frames);
-  };
-  out.frames = frames(true);
-  out.pressure_frames = frames(false);
-  const auto* both = dynamic_cast<const BiventricularFrames*>(out.frames.get());
+  out.frames = tent_frames(anatomy, out.layout, true);
+  out.pressure_frames = tent_frames(anatomy, out.layout, false);
   std::vector<std::string> told_with_the_result;
   const bool heart_axes = axes_of(anatomy, protocol, told_with_the_result) == protocol::Axes::heart;
-  std::vector<FrameFunctions> functions;
-  const auto own = independent(*out.frames, monomials(protocol));
-  for (int i = 0; i < out.frames->num_frames(); ++i) {
-    FrameFunctions f{own[i], heart_axes && i != out.layout.cap() && !(both && both->is_right(i))};
-    if (i == out.layout.cap()) f.monomials = of_cap(own[i]);
-    if (i >= out.layout.num_nodes()) std::erase_if(f.monomials, [](const Monomial& m) { return m[0] == 0; });
-    functions.push_back(f);
-  }
+  auto functions = tent_functions(*out.frames, monomials(protocol), heart_axes);
+  std::shared_ptr<const polyaffine::FrameField> frames = out.frames;
   if (*protocol.reduction.border_functions) {
-    const auto with_borders = std::make_shared<BorderFrames>(out.frames, segment_kinds(protocol));
-    functions.resize(with_borders->num_frames(), {{{0, 0, 0}}, heart_axes});
-    out.frame_basis = std::make_shared<polyaffine::FrameBasis>(with_borders, functions);
-  } else
-    out.frame_basis = std::make_shared<polyaffine::FrameBasis>(out.frames, functions);
+    frames = std::make_shared<BorderFrames>(out.frames, segment_kinds(protocol));
+    functions.resize(frames->num_frames(), {{{0, 0, 0}}, heart_axes});
+  }
+  out.frame_basis = std::make_shared<polyaffine::FrameBasis>(frames, functions);
 }
 
 // Zero on the base, one below the basal ring, with a continuous slope; at the nodes of the geometry.

@@ -13,6 +13,59 @@ using polyaffine::kPi;
 using polyaffine::Vec3;
 using polyaffine::Vec4;
 
+namespace {
+
+// Heights (0 apex of the cavity, 1 base) at which the rings of segments begin: the cap, three thirds of the
+// long axis; and where the last one ends.
+constexpr std::array<double, 5> kRingHeights{-HUGE_VAL, 0, 1.0 / 3, 2.0 / 3, HUGE_VAL};
+
+// A point in a cell of the frames, and the AHA segment there.
+struct PointInCell {
+  SegmentFrames::Cell cell;
+  double height = 0;  // along the long axis
+  int segment = 0, ring = 0;
+};
+
+// How far along the wall, from 0 to 1, a point lies in the part of its cell that belongs to its ring of
+// segments. A border of rings is a level of the height, one of the cell is a level of u, so both distances
+// are taken in the unit of u and divide the way between them:
+//
+//     ───────────  upper border of the ring if the cell holds the next ring too, else top of the cell
+//          │ above
+//          ●       below / (below + above)
+//          │ below
+//     ───────────  lower border of the ring if the cell holds the ring below too, else bottom of the cell
+double share_along(const PointInCell& at, const std::array<bool, 4>& rings_in_cell, double u_per_height) {
+  const bool ends_below = at.ring > 0 && rings_in_cell[at.ring - 1];
+  const bool ends_above = at.ring < kAhaRings && rings_in_cell[at.ring + 1];
+  const double below =
+      ends_below ? u_per_height * (at.height - kRingHeights[at.ring]) : at.cell.u * at.cell.length;
+  const double above =
+      ends_above ? u_per_height * (kRingHeights[at.ring + 1] - at.height) : (1 - at.cell.u) * at.cell.length;
+  return below / (below + above);
+}
+
+// How far around the wall, from 0 to 1, a point lies in the part of its cell that belongs to its segment:
+// where the sector of the segment and that of the cell overlap. Angles count from the beginning of the cell:
+//
+//     0 ├──────── cell ────────┤ width
+//              ├────── segment ──────┤      middle ± half
+//          low ├───●───────────┤ high
+double share_around(const PointInCell& at) {
+  const double width = at.cell.width;
+  double low = 0, high = width;
+  if (at.ring > 0) {  // the cap goes all the way round
+    const double half = kPi / aha_ring_size(at.ring);
+    const double middle =
+        width / 2 + std::remainder(aha_centre_angle(at.segment) - (at.cell.angle + width / 2), 2 * kPi);
+    low = std::max(low, middle - half);
+    high = std::min(high, middle + half);
+  }
+  return (at.cell.psi * width - low) / (high - low);
+}
+
+}  // namespace
+
 SegmentCells::SegmentCells(std::shared_ptr<const SegmentFrames> frames, const std::vector<int>& kind)
     : frames_(std::move(frames)), division_of_(frames_->num_cells(), -1) {
   const VentricularCoordinates& coordinates = frames_->coordinates();
@@ -36,7 +89,7 @@ SegmentCells::SegmentCells(std::shared_ptr<const SegmentFrames> frames, const st
   }
 }
 
-// Numbers of cells: the parts first, then those of the frames.
+// Cells are numbered in this order: the parts of divided cells, then the cells of the frames.
 CellPlace SegmentCells::operator()(int tet, const Vec4& barycentric) const {
   const auto whole = frames_->point_cell(tet, barycentric);
   const int division = whole.index < frames_->num_cells() ? division_of_[whole.index] : -1;
@@ -45,30 +98,15 @@ CellPlace SegmentCells::operator()(int tet, const Vec4& barycentric) const {
 }
 
 CellPlace SegmentCells::part(const Division& division, int tet, const Vec4& barycentric) const {
-  constexpr std::array<double, 5> kHeights{-HUGE_VAL, 0, 1.0 / 3, 2.0 / 3, HUGE_VAL};
   const VentricularCoordinates& coordinates = frames_->coordinates();
-  const CoordinateSample at = coordinates.sample(tet, barycentric);
+  const CoordinateSample sample = coordinates.sample(tet, barycentric);
   const Vec3 X = coordinates.position(tet, barycentric);
-  const double height = coordinates.long_axis_height(X);
-  const int segment = aha_segment(height, coordinates.sector_angle(X)), ring = aha_ring(segment);
-  const SegmentFrames::Cell cell = frames_->cell(at.u, at.psi);
-
-  // Distances to the lower and the upper border, both in the unit of u.
+  PointInCell at{frames_->cell(sample.u, sample.psi), coordinates.long_axis_height(X)};
+  at.segment = aha_segment(at.height, coordinates.sector_angle(X));
+  at.ring = aha_ring(at.segment);
   const double u_per_height = coordinates.cavity_length() / coordinates.arc_length();
-  const bool ends_below = ring > 0 && division.rings[ring - 1];
-  const bool ends_above = ring < 3 && division.rings[ring + 1];
-  const double below = ends_below ? u_per_height * (height - kHeights[ring]) : cell.u * cell.length;
-  const double above = ends_above ? u_per_height * (kHeights[ring + 1] - height) : (1 - cell.u) * cell.length;
-
-  double low = 0, high = cell.width;  // rad, from the beginning of the cell
-  if (ring > 0) {
-    const double half = kPi / aha_ring_size(ring), middle = cell.angle + cell.width / 2;
-    const double from_middle = std::remainder(aha_centre_angle(segment) - middle, 2 * kPi);
-    low = std::max(low, cell.width / 2 + from_middle - half);
-    high = std::min(high, cell.width / 2 + from_middle + half);
-  }
-  const int number = kAhaSegments * division_of_[division.cell] + segment - 1;
-  return {number, Vec3(below / (below + above), (cell.psi * cell.width - low) / (high - low), at.t)};
+  const Vec3 place(share_along(at, division.rings, u_per_height), share_around(at), sample.t);
+  return {kAhaSegments * division_of_[division.cell] + at.segment - 1, place};
 }
 
 bool SegmentCells::at_apex(int cell) const {

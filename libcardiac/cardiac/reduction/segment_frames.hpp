@@ -55,6 +55,15 @@ class SegmentFrames : public polyaffine::FrameField {
   int num_apex_cells() const { return cell_start_[1]; }  ///< those at the axis, numbered first
 
  private:
+  // A tent at a point, and its slope in its coordinate.
+  struct Hat {
+    double value = 0, slope = 0;
+  };
+  polyaffine::FrameSample cap_sample(const Hat& along, const CoordinateSample& at,
+                                     const polyaffine::Vec3& X) const;
+  void add_ring(std::size_t k, const Hat& along, const CoordinateSample& at,
+                std::vector<polyaffine::FrameSample>& frames) const;
+
   std::shared_ptr<const VentricularCoordinates> coordinates_;
   FrameLayout layout_;
   bool base_frames_;

@@ -4,9 +4,9 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <limits>
 
+#include <cardiac/report/csv_writer.hpp>
 #include <cardiac/report/global_columns.hpp>
 #include <cardiac/report/summary.hpp>
 #include <cardiac/report/text.hpp>
@@ -19,19 +19,12 @@ namespace {
 using polyaffine::Mat3;
 using polyaffine::Vec3;
 
-std::string quoted(const std::string& field) {
-  if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
-  std::string out = "\"";
-  for (const char c : field) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
+CsvWriter& operator<<(CsvWriter& csv, const SegmentInfo& segment) {
+  return csv << segment.number << segment.name;
 }
 
-std::string segment_fields(const SegmentInfo& segment) {
-  return std::to_string(segment.number) + "," + quoted(segment.name);
-}
-
-void append(std::string& row, std::initializer_list<double> values) {
-  for (const double value : values) (row += ',') += number_text(value);
+CsvWriter& operator<<(CsvWriter& csv, const Vec3& v) {
+  return csv << v(0) << v(1) << v(2);
 }
 
 /// The instants with the digits that the tables show, so that what is derived from them is the same when it
@@ -71,124 +64,111 @@ Polar polar(const Mat3& A) {
 }  // namespace
 
 std::string strain_table(const BeatResult& result) {
-  std::string text =
-      "time_ms,segment,name,longitudinal,circumferential,radial,shear_lc,shear_lr,shear_cr,volume_ratio\n";
-  for (const Instant& instant : result.instants) {
+  CsvWriter csv(
+      "time_ms,segment,name,longitudinal,circumferential,radial,shear_lc,shear_lr,shear_cr,volume_ratio");
+  for (const Instant& instant : result.instants)
     for (size_t i = 0; i < instant.strain.size(); ++i) {
       const SegmentStrain& s = instant.strain[i];
-      text += number_text(instant.time_ms) + "," + segment_fields(result.segments.at(i));
-      append(text, {s.longitudinal, s.circumferential, s.radial, s.shear_lc, s.shear_lr, s.shear_cr,
-                    s.volume_ratio});
-      text += '\n';
+      csv << instant.time_ms << result.segments.at(i) << s.longitudinal << s.circumferential << s.radial
+          << s.shear_lc << s.shear_lr << s.shear_cr << s.volume_ratio;
+      csv.end_row();
     }
-  }
-  return text;
+  return csv.text();
 }
 
 std::string peaks_table(const BeatResult& result) {
-  std::string text = "segment,name";
+  std::string header = "segment,name";
   for (const std::string strain : {"longitudinal", "circumferential", "radial"}) {
-    text += ",peak_" + strain + ",peak_" + strain + "_time_ms,systolic_peak_" + strain + ",end_systolic_" +
-            strain + ",post_systolic_index_" + strain + "_percent";
+    header += ",peak_" + strain + ",peak_" + strain + "_time_ms,systolic_peak_" + strain + ",end_systolic_" +
+              strain + ",post_systolic_index_" + strain + "_percent";
   }
-  text += '\n';
+  CsvWriter csv(header);
   const auto [ed_ms, es_ms] = cardiac_times(result);
   const std::vector<SegmentPeaks> peaks =
       strain_peaks(as_written(result.instants), rounded_for_files(ed_ms), rounded_for_files(es_ms));
   for (size_t i = 0; i < peaks.size(); ++i) {
-    text += segment_fields(result.segments.at(i));
+    csv << result.segments.at(i);
     for (const StrainPeak& p : {peaks[i].longitudinal, peaks[i].circumferential, peaks[i].radial})
-      append(text, {p.value, p.time_ms, p.systolic, p.end_systolic, p.post_systolic_index_percent});
-    text += '\n';
+      csv << p.value << p.time_ms << p.systolic << p.end_systolic << p.post_systolic_index_percent;
+    csv.end_row();
   }
-  return text;
+  return csv.text();
 }
 
 std::string affine_table(const BeatResult& result) {
-  std::string text =
+  CsvWriter csv(
       "time_ms,segment,name,a_11,a_12,a_13,a_21,a_22,a_23,a_31,a_32,a_33,t_1_mm,t_2_mm,t_3_mm,"
-      "rotation_deg,stretch_1,stretch_2,stretch_3,determinant,misfit\n";
-  for (const Instant& instant : as_written(result.instants)) {
+      "rotation_deg,stretch_1,stretch_2,stretch_3,determinant,misfit");
+  for (const Instant& instant : as_written(result.instants))
     for (size_t i = 0; i < instant.frames.size(); ++i) {
       const auto& [A, t, misfit] = instant.frames[i];
       const Polar p = polar(A);
-      text += number_text(instant.time_ms) + "," + segment_fields(result.segments.at(i));
-      for (int row = 0; row < 3; ++row) append(text, {A(row, 0), A(row, 1), A(row, 2)});
-      append(text, {t(0), t(1), t(2), p.rotation_deg, p.stretch(0), p.stretch(1), p.stretch(2),
-                    A.determinant(), misfit});
-      text += '\n';
+      csv << instant.time_ms << result.segments.at(i);
+      for (int row = 0; row < 3; ++row) csv << Vec3(A.row(row));
+      csv << t << p.rotation_deg << p.stretch << A.determinant() << misfit;
+      csv.end_row();
     }
-  }
-  return text;
+  return csv.text();
 }
 
 std::string nodes_table(const BeatResult& result) {
-  std::string text = "segment,name,x_mm,y_mm,z_mm";
-  for (const char axis : {'l', 'c', 'r'})
-    for (const char component : {'x', 'y', 'z'}) text += std::string(",") + axis + "_" + component;
-  text += '\n';
+  CsvWriter csv("segment,name,x_mm,y_mm,z_mm,l_x,l_y,l_z,c_x,c_y,c_z,r_x,r_y,r_z");
   for (size_t i = 0; i < result.nodes.size(); ++i) {
     const auto& [q, axes] = result.nodes[i];
-    text += segment_fields(result.segments.at(i));
-    append(text, {q(0), q(1), q(2)});
-    for (int k = 0; k < 3; ++k) append(text, {axes(0, k), axes(1, k), axes(2, k)});
-    text += '\n';
+    csv << result.segments.at(i) << q;
+    for (int k = 0; k < 3; ++k) csv << Vec3(axes.col(k));
+    csv.end_row();
   }
-  return text;
+  return csv.text();
 }
 
 std::string global_strain_table(const BeatResult& result) {
-  std::string text = "time_ms,ventricle";
-  for (const auto& quantity : kGlobalStrain) text += "," + quantity.column;
-  text += '\n';
-  for (const Instant& instant : result.instants) {
+  std::string header = "time_ms,ventricle";
+  for (const auto& quantity : kGlobalStrain) header += "," + quantity.column;
+  CsvWriter csv(header);
+  for (const Instant& instant : result.instants)
     for (size_t i = 0; i < instant.global.size(); ++i) {
-      text += number_text(instant.time_ms) + "," + quoted(result.ventricles.at(i).name);
-      for (const auto& quantity : kGlobalStrain) append(text, {quantity.value(instant.global[i])});
-      text += '\n';
+      csv << instant.time_ms << result.ventricles.at(i).name;
+      for (const auto& quantity : kGlobalStrain) csv << quantity.value(instant.global[i]);
+      csv.end_row();
     }
-  }
-  return text;
+  return csv.text();
 }
 
 std::string frames_table(const BeatResult& result) {
-  std::string text = "time_ms,frame,axes,function,c_1_mm,c_2_mm,c_3_mm\n";
-  for (const Instant& instant : result.instants) {
+  CsvWriter csv("time_ms,frame,axes,function,c_1_mm,c_2_mm,c_3_mm");
+  for (const Instant& instant : result.instants)
     for (size_t k = 0; k < instant.frame_unknowns.size(); ++k) {
       const FrameFunction& f = result.frame_functions.at(k);
-      text += number_text(instant.time_ms) + "," + quoted(f.frame) +
-              (f.local_axes ? ",local," : ",cartesian,") + f.function;
-      for (const double c : instant.frame_unknowns[k]) text += "," + exact_text(c);
-      text += '\n';
+      csv << instant.time_ms << f.frame << (f.local_axes ? "local" : "cartesian") << f.function;
+      for (const double c : instant.frame_unknowns[k]) csv << exact_text(c);
+      csv.end_row();
     }
-  }
-  return text;
+  return csv.text();
 }
 
 std::string cavity_table(const BeatResult& result) {
-  std::string text = "time_ms,ventricle,volume_mL,pressure_mmHg,phase\n";
-  for (const VentricleSummary& ventricle : result.ventricles) {
+  CsvWriter csv("time_ms,ventricle,volume_mL,pressure_mmHg,phase");
+  for (const VentricleSummary& ventricle : result.ventricles)
     for (const CavitySample& s : ventricle.samples) {
-      text += number_text(s.time_ms) + "," + quoted(ventricle.name);
-      append(text, {s.volume_mL, s.pressure_mmHg});
-      text += "," + (result.has_beat ? phase_name(s.phase) : "") + "\n";
+      csv << s.time_ms << ventricle.name << s.volume_mL << s.pressure_mmHg
+          << (result.has_beat ? phase_name(s.phase) : "");
+      csv.end_row();
     }
-  }
-  return text;
+  return csv.text();
 }
 
 std::string circulation_text(const BeatResult& result) {
   const CirculationTable& table = result.circulation;
-  std::string text;
-  for (const std::string& name : table.columns) text += (text.empty() ? "" : ",") + name;
-  text += '\n';
+  std::string header;
+  for (const std::string& name : table.columns) header += (header.empty() ? "" : ",") + name;
+  CsvWriter csv(header);
   const std::size_t rows = table.values.empty() ? 0 : table.values.front().size();
   for (std::size_t row = 0; row < rows; ++row) {
-    for (std::size_t column = 0; column < table.values.size(); ++column)
-      text += (column > 0 ? "," : "") + number_text(table.values[column].at(row));
-    text += '\n';
+    for (const auto& column : table.values) csv << column.at(row);
+    csv.end_row();
   }
-  return text;
+  return csv.text();
 }
 
 std::string phase_name(Phase phase) {

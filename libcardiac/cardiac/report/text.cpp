@@ -49,9 +49,9 @@ std::string_view escaped(char c) {
 
 }  // namespace
 
-std::string number_text(double value) {
+std::string number_text(double value, int digits) {
   if (!std::isfinite(value)) return "";
-  return formatted(value == 0 ? 0.0 : value, std::chars_format::general, 9);
+  return formatted(value == 0 ? 0.0 : value, std::chars_format::general, digits);
 }
 
 std::string exact_text(double value) {

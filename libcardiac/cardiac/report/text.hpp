@@ -5,9 +5,9 @@
 
 namespace cardiac {
 
-/// A number for files: at most 9 significant digits, a point as decimal sign in every locale, "" where it is
-/// not finite.
-std::string number_text(double value);
+/// A number for files: at most so many significant digits, a point as decimal sign in every locale, "" where
+/// it is not finite.
+std::string number_text(double value, int digits = 9);
 
 /// The shortest text that reads back as the same number, for what is computed with; "" where it is not
 /// finite.

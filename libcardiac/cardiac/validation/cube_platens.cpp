@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include <cardiac/report/text.hpp>
+#include <cardiac/report/csv_writer.hpp>
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/core/single_thread.hpp>
 #include <polyaffine/kinematics/region_frames.hpp>
@@ -174,14 +174,14 @@ PlatenRow compare_platens(const CubeScene& scene, const PlatenSolution& truth, i
 }
 
 std::string platens_csv(const std::vector<PlatenRow>& rows) {
-  std::string out =
-      "zones,points,unknowns,placements,redraws,thickness_error_percent,displacement_error_percent\n";
+  CsvWriter csv(
+      "zones,points,unknowns,placements,redraws,thickness_error_percent,displacement_error_percent");
   for (const PlatenRow& r : rows) {
-    for (const int value : {r.zones, r.points, r.unknowns, r.placements, r.redraws})
-      out += std::to_string(value) + ",";
-    out += number_text(r.thickness_error_percent) + "," + number_text(r.displacement_error_percent) + "\n";
+    csv << r.zones << r.points << r.unknowns << r.placements << r.redraws << r.thickness_error_percent
+        << r.displacement_error_percent;
+    csv.end_row();
   }
-  return out;
+  return csv.text();
 }
 
 }  // namespace cardiac

@@ -6,7 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include <cardiac/report/text.hpp>
+#include <cardiac/report/csv_writer.hpp>
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/core/single_thread.hpp>
 
@@ -155,26 +155,20 @@ double defect_correlation(const std::vector<CubeDefect>& defects) {
 }
 
 std::string cube_csv(const CubeTable& table) {
-  std::string out =
+  CsvWriter csv(
       "zones,points,kinematics,elaston_order,weights,placements,error_percent,spread_percent,worst_percent,"
-      "tilt_percent,solve_s,time_ratio,placement_s,setup_s,correction_s,moments_kept,redraws,paper_error_"
-      "percent,"
-      "paper_spread_percent,paper_time_ratio\n";
+      "tilt_percent,solve_s,time_ratio,placement_s,setup_s,correction_s,moments_kept,redraws,"
+      "paper_error_percent,paper_spread_percent,paper_time_ratio");
   for (const CubeRow& r : table.rows) {
-    out += std::to_string(r.paper.zones) + "," + std::to_string(r.paper.points);
-    out += r.method.kinematics == CubeKinematics::blending ? ",blending," : ",gmls,";
-    out += std::to_string(r.method.elaston_order);
-    out += r.weights == CubeWeights::volumes ? ",volumes," : ",consistent,";
-    out += std::to_string(r.placements);
-    for (const double value : {r.error_percent, r.spread_percent, r.worst_percent, r.tilt_percent, r.solve_s,
-                               r.time_ratio, r.placement_s, r.setup_s, r.correction_s, r.moments_kept})
-      (out += ",") += number_text(value);
-    out += "," + std::to_string(r.redraws);
-    for (const double value : {r.paper.error_percent, r.paper.spread_percent, r.paper.time_ratio()})
-      (out += ",") += number_text(value);
-    out += "\n";
+    csv << r.paper.zones << r.paper.points
+        << (r.method.kinematics == CubeKinematics::blending ? "blending" : "gmls") << r.method.elaston_order
+        << (r.weights == CubeWeights::volumes ? "volumes" : "consistent") << r.placements << r.error_percent
+        << r.spread_percent << r.worst_percent << r.tilt_percent << r.solve_s << r.time_ratio << r.placement_s
+        << r.setup_s << r.correction_s << r.moments_kept << r.redraws << r.paper.error_percent
+        << r.paper.spread_percent << r.paper.time_ratio();
+    csv.end_row();
   }
-  return out;
+  return csv.text();
 }
 
 }  // namespace cardiac

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <cardiac/anatomy/structured_ellipsoid.hpp>
+#include <cardiac/report/csv_writer.hpp>
 #include <cardiac/report/text.hpp>
 #include <cardiac/validation/ellipsoid_figure.hpp>
 #include <cardiac/validation/ellipsoid_measure.hpp>
@@ -149,15 +150,11 @@ class Case {
     const double low = 1 - zones.spacing() / 2;
     const double slope = problem_->base_slope(projected);
     const double stiff = measure_->basal_displacement(measure_->profile(projected), low);
-    base_ =
-        "hold,stiffness_kPa_per_mm,base_motion_mm,slope,slope_over_projective,basal_displacement_mm,"
-        "basal_over_projective,error_percent\n";
     const auto row = [&](const std::string& hold, double stiffness, const EllipsoidProblem::Solution& s) {
       const double basal = measure_->basal_displacement(measure_->profile(s), low);
-      base_ += hold + "," + number_text(stiffness) + "," + number_text(problem_->base_motion(s)) + "," +
-               number_text(problem_->base_slope(s)) + "," + number_text(problem_->base_slope(s) / slope) +
-               "," + number_text(basal) + "," + number_text(basal / stiff) + "," +
-               number_text(measure_->error_percent(s)) + "\n";
+      base_ << hold << stiffness << problem_->base_motion(s) << problem_->base_slope(s)
+            << problem_->base_slope(s) / slope << basal << basal / stiff << measure_->error_percent(s);
+      base_.end_row();
     };
     row("frames", 0, clamped);
     row("projective", 0, projected);
@@ -169,23 +166,20 @@ class Case {
   }
 
   void write_files() const {
-    std::string csv =
+    CsvWriter csv(
         "# relative L2 displacement error against quadratic elements on a fine structured mesh; bump: wave "
-        "with the "
-        "spacing of the rings along an outer meridian over the mean normal "
-        "displacement\n"
+        "with the spacing of the rings along an outer meridian over the mean normal displacement\n"
         "model,sigmoid_slope,n_z,n_t,zones,unknowns,integration_points,error_percent,bump_percent,solve_s,"
-        "full_order_solve_s\n";
-    for (const Row& r : rows_)
-      csv += r.model + "," + (r.sigmoid_slope > 0 ? number_text(r.sigmoid_slope) : "") + "," +
-             std::to_string(r.zones.n_z) + "," + std::to_string(r.zones.n_t) + "," +
-             std::to_string(r.zones.n_z > 0 ? r.zones.n_z * r.zones.n_t + 1 : 0) + "," +
-             std::to_string(r.unknowns) + "," + std::to_string(r.points) + "," +
-             number_text(r.error_percent) + "," + number_text(r.bump_percent) + "," + number_text(r.solve_s) +
-             "," + number_text(full_order_s_) + "\n";
-    polyaffine::write_atomically(context_.out / "ellipsoid.csv", csv);
+        "full_order_solve_s");
+    for (const Row& r : rows_) {
+      csv << r.model << (r.sigmoid_slope > 0 ? r.sigmoid_slope : NAN) << r.zones.n_z << r.zones.n_t
+          << (r.zones.n_z > 0 ? r.zones.n_z * r.zones.n_t + 1 : 0) << r.unknowns << r.points
+          << r.error_percent << r.bump_percent << r.solve_s << full_order_s_;
+      csv.end_row();
+    }
+    polyaffine::write_atomically(context_.out / "ellipsoid.csv", csv.text());
     polyaffine::write_atomically(context_.out / "ellipsoid_profile.csv", profiles());
-    polyaffine::write_atomically(context_.out / "ellipsoid_base.csv", base_);
+    polyaffine::write_atomically(context_.out / "ellipsoid_base.csv", base_.text());
     polyaffine::write_atomically(context_.out / "ellipsoid.svg", figure());
   }
 
@@ -193,20 +187,21 @@ class Case {
   std::string profiles() const {
     const Points& X = measure_->meridian();
     std::vector<Vector> columns{normal_part(X, measure_->profile())};
-    std::string csv = "x_mm,z_mm,reference_mm";
+    std::string header = "x_mm,z_mm,reference_mm";
     for (const Row& r : rows_) {
-      csv += "," + r.model + (r.sigmoid_slope > 0 ? "_a" + number_text(r.sigmoid_slope) : "") +
-             (r.zones.n_z > 0 ? "_" + std::to_string(r.zones.n_z) + "x" + std::to_string(r.zones.n_t) : "") +
-             "_mm";
+      header +=
+          "," + r.model + (r.sigmoid_slope > 0 ? "_a" + number_text(r.sigmoid_slope) : "") +
+          (r.zones.n_z > 0 ? "_" + std::to_string(r.zones.n_z) + "x" + std::to_string(r.zones.n_t) : "") +
+          "_mm";
       columns.push_back(normal_part(X, r.profile));
     }
-    csv += "\n";
+    CsvWriter csv(header);
     for (Eigen::Index k = 0; k < X.cols(); ++k) {
-      csv += number_text(X(0, k)) + "," + number_text(X(2, k));
-      for (const Vector& column : columns) csv += "," + number_text(column[k]);
-      csv += "\n";
+      csv << X(0, k) << X(2, k);
+      for (const Vector& column : columns) csv << column[k];
+      csv.end_row();
     }
-    return csv;
+    return csv.text();
   }
 
   std::string figure() const {
@@ -244,7 +239,9 @@ class Case {
   double full_order_s_ = 0;
   std::vector<Row> rows_;
   std::vector<Check> checks_;
-  std::string base_;
+  CsvWriter base_{
+      "hold,stiffness_kPa_per_mm,base_motion_mm,slope,slope_over_projective,basal_displacement_mm,"
+      "basal_over_projective,error_percent"};
 };
 
 }  // namespace

@@ -2,9 +2,8 @@
 
 #include <array>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 
+#include <cardiac/report/csv_writer.hpp>
 #include <cardiac/validation/land_model.hpp>
 #include <cardiac/validation/land_reduced.hpp>
 #include <polyaffine/core/atomic_file.hpp>
@@ -141,12 +140,12 @@ void add_reduced_checks(const TetMesh& mesh, std::vector<Check>& checks) {
   }
 }
 
-void add_rows(const Problem& problem, const LandSolution& s, std::ostream& table) {
+void add_rows(const Problem& problem, const LandSolution& s, CsvWriter& table) {
   for (std::size_t k = 0; k < problem.quantities.size(); ++k) {
     const Quantity& q = problem.quantities[k];
-    table << problem.name << ',' << q.name << ',' << s.tets << ',' << s.unknowns << ',' << s.values[k] << ','
-          << q.reference << ',' << s.load_steps << ',' << s.newton_iterations << ',' << s.wall_volume_change
-          << ',' << s.cpu_s << '\n';
+    table << problem.name << q.name << s.tets << s.unknowns << s.values[k] << q.reference << s.load_steps
+          << s.newton_iterations << s.wall_volume_change << s.cpu_s;
+    table.end_row();
   }
 }
 
@@ -154,10 +153,10 @@ void add_rows(const Problem& problem, const LandSolution& s, std::ostream& table
 
 std::vector<Check> validate_land(const ValidationContext& context) {
   std::vector<Check> checks;
-  std::ostringstream table;
-  table << std::setprecision(8)
-        << "case,quantity,mesh_tets,unknowns,value,reference,load_steps,newton_iterations,wall_volume_change,"
-           "cpu_s\n";
+  CsvWriter table(
+      "case,quantity,mesh_tets,unknowns,value,reference,load_steps,newton_iterations,wall_volume_change,cpu_"
+      "s",
+      8);
   const int levels = context.quick ? 1 : 2;
   const double all = static_cast<double>(problems().size()) * levels;
   double done = 0;
@@ -171,7 +170,7 @@ std::vector<Check> validate_land(const ValidationContext& context) {
     }
   context.progress("reduced", done / all);
   add_reduced_checks(ellipsoid(context, problems()[1].edge_mm[0]), checks);
-  polyaffine::write_atomically(context.out / "land.csv", table.str());
+  polyaffine::write_atomically(context.out / "land.csv", table.text());
   return checks;
 }
 

@@ -1,13 +1,14 @@
 #include "polyaffine/core/cache.hpp"
 
-#include <cstdint>
 #include <cstdlib>
 #include <fstream>
 #include <iomanip>
+#include <span>
 #include <sstream>
 
 #include <polyaffine/core/atomic_file.hpp>
 #include <polyaffine/core/error.hpp>
+#include <polyaffine/core/fnv1a.hpp>
 
 namespace polyaffine {
 namespace {
@@ -15,10 +16,10 @@ namespace {
 std::filesystem::path cache_file(const std::string& kind, const std::string& key) {
   const auto folder = cache_folder();
   if (folder.empty()) return {};
-  std::uint64_t sum = 0xcbf29ce484222325;  // FNV-1a
-  for (const unsigned char byte : key) sum = (sum ^ byte) * 0x100000001b3;
+  Fnv1a sum;
+  sum.add(std::span(key.data(), key.size()));
   std::ostringstream name;
-  name << kind << '-' << std::hex << std::setfill('0') << std::setw(16) << sum;
+  name << kind << '-' << std::hex << std::setfill('0') << std::setw(16) << sum.value();
   return folder / name.str();
 }
 

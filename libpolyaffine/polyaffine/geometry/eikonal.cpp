@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <queue>
 #include <stdexcept>
 #include <string>
@@ -15,6 +16,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+// The earliest arrival at a vertex found so far.
 struct Update {
   double time = kInfinity;
   int from = -1;  // the corner that contributes most
@@ -24,51 +26,70 @@ struct Update {
   }
 };
 
-// Two known corners with times t and Gram matrix g of the edges towards the updated vertex.
+// A front that passes corners with known times t_i arrives at a vertex, to which the edges v_i lead from
+// them, at T. It is plane with the unit slowness s, s · v_i = T − t_i = τ − dt_i, where dt_i counts from the
+// earliest corner. With s = Σ λ_i v_i and the Gram matrix G_ij = v_i · v_j of the edges this is G λ = τ 1 −
+// dt, and |s| = 1 gives
+//
+//     α τ² − 2 β τ + γ = 0,   α = 1ᵀQ1,  β = 1ᵀQ dt,  γ = dtᵀQ dt − det G,   Q = adj G.
+//
+// It comes from between the corners where λ ∝ τ Q1 − Q dt is not negative. The later root is the one whose
+// front has passed the corners.
+
+// The larger root τ; nothing where the front is faster than the corners allow.
+std::optional<double> later_root(double alpha, double beta, double gamma) {
+  const double root = beta * beta - alpha * gamma;
+  if (root < 0) return {};
+  return (beta + std::sqrt(root)) / alpha;
+}
+
+// From between two corners i and j.
 void update_edge(const Mat3& g, const Vec3& t, int i, int j, Update& best) {
   const double det = g(i, i) * g(j, j) - g(i, j) * g(i, j);
   const double dt = t[j] - t[i];
-  // With s·v_i = T − t_i, s·v_j = T − t_j, |s| = 1 in the plane of the edges: α τ² − 2 β τ + γ = 0, τ = T −
-  // t_i.
-  const double alpha = g(i, i) - 2 * g(i, j) + g(j, j);
-  const double beta = (g(i, i) - g(i, j)) * dt;
-  const double gamma = g(i, i) * dt * dt - det;
-  const double root = beta * beta - alpha * gamma;
-  if (root < 0) return;
-  const double tau = (beta + std::sqrt(root)) / alpha;
-  const double li = g(j, j) * tau - g(i, j) * (tau - dt);
-  const double lj = g(i, i) * (tau - dt) - g(i, j) * tau;
-  if (li > 0 && lj > 0) best.offer(t[i] + tau, li >= lj ? i : j);
+  const auto tau =
+      later_root(g(i, i) - 2 * g(i, j) + g(j, j), (g(i, i) - g(i, j)) * dt, g(i, i) * dt * dt - det);
+  if (!tau) return;
+  const double li = g(j, j) * *tau - g(i, j) * (*tau - dt);
+  const double lj = g(i, i) * (*tau - dt) - g(i, j) * *tau;
+  if (li > 0 && lj > 0) best.offer(t[i] + *tau, li >= lj ? i : j);
 }
 
-// min over λ of Σ λ_i t_i + |Σ λ_i v_i| for the three edges v_i towards the vertex; t may hold infinities.
+Mat3 adjugate(const Mat3& g) {
+  Mat3 q;
+  q(0, 0) = g(1, 1) * g(2, 2) - g(1, 2) * g(1, 2);
+  q(0, 1) = q(1, 0) = g(0, 2) * g(1, 2) - g(0, 1) * g(2, 2);
+  q(0, 2) = q(2, 0) = g(0, 1) * g(1, 2) - g(0, 2) * g(1, 1);
+  q(1, 1) = g(0, 0) * g(2, 2) - g(0, 2) * g(0, 2);
+  q(1, 2) = q(2, 1) = g(0, 1) * g(0, 2) - g(0, 0) * g(1, 2);
+  q(2, 2) = g(0, 0) * g(1, 1) - g(0, 1) * g(0, 1);
+  return q;
+}
+
+// From inside the triangle of all three corners; false where the front does not come from there.
+bool update_face(const Mat3& g, const Vec3& t, Update& best) {
+  const Mat3 q = adjugate(g);
+  const double det = g.row(0).dot(q.col(0));
+  const Vec3 dt = t.array() - t.minCoeff();
+  const Vec3 q1 = q.rowwise().sum(), qt = q * dt;
+  const auto tau = later_root(q1.sum(), qt.sum(), dt.dot(qt) - det);
+  if (!tau) return false;
+  const Vec3 lambda = *tau * q1 - qt;
+  if (!(lambda.minCoeff() >= 0)) return false;
+  Eigen::Index corner = 0;
+  lambda.maxCoeff(&corner);
+  best.offer(t.minCoeff() + *tau, static_cast<int>(corner));
+  return true;
+}
+
+// The least over λ ≥ 0, Σ λ = 1, of Σ λ_i t_i + |Σ λ_i v_i| for the three edges v_i towards the vertex; t may
+// hold infinities. The function is convex, so a minimum inside the face needs no look at its edges and
+// corners.
 Update update_vertex(const Mat3& v, const Vec3& t) {
   const Mat3 g = v.transpose() * v;
   Update best;
-  if (std::isfinite(t[0]) && std::isfinite(t[1]) && std::isfinite(t[2])) {
-    Mat3 q;  // adjugate of g
-    q(0, 0) = g(1, 1) * g(2, 2) - g(1, 2) * g(1, 2);
-    q(0, 1) = q(1, 0) = g(0, 2) * g(1, 2) - g(0, 1) * g(2, 2);
-    q(0, 2) = q(2, 0) = g(0, 1) * g(1, 2) - g(0, 2) * g(1, 1);
-    q(1, 1) = g(0, 0) * g(2, 2) - g(0, 2) * g(0, 2);
-    q(1, 2) = q(2, 1) = g(0, 1) * g(0, 2) - g(0, 0) * g(1, 2);
-    q(2, 2) = g(0, 0) * g(1, 1) - g(0, 1) * g(0, 1);
-    const double det = g.row(0).dot(q.col(0));
-    const Vec3 dt = t.array() - t.minCoeff();
-    const Vec3 q1 = q.rowwise().sum(), qt = q * dt;
-    const double alpha = q1.sum(), beta = qt.sum(), gamma = dt.dot(qt) - det;
-    const double root = beta * beta - alpha * gamma;
-    if (root >= 0) {
-      const double tau = (beta + std::sqrt(root)) / alpha;
-      const Vec3 lambda = tau * q1 - qt;
-      Eigen::Index corner = 0;
-      if (lambda.minCoeff() >= 0) {
-        lambda.maxCoeff(&corner);
-        best.offer(t.minCoeff() + tau, static_cast<int>(corner));
-        return best;  // the function is convex, so an interior critical point is its minimum
-      }
-    }
-  }
+  const bool all_known = std::isfinite(t[0]) && std::isfinite(t[1]) && std::isfinite(t[2]);
+  if (all_known && update_face(g, t, best)) return best;
   for (int i = 0; i < 3; ++i) {
     if (!std::isfinite(t[i])) continue;
     best.offer(t[i] + std::sqrt(g(i, i)), i);
@@ -145,8 +166,31 @@ Arrival EikonalSolver::march(const std::vector<EikonalSource>& sources,
   return march_from(std::move(initial), allowed);
 }
 
-Arrival EikonalSolver::march_from(Arrival arrival, const std::vector<char>& allowed) const {
+// The arrival at corner k of a tet from its three other corners, if it is earlier than what is known; whether
+// it was.
+bool EikonalSolver::improve(int t, int k, const Eigen::Matrix<double, 3, 4>& corners,
+                            Arrival& arrival) const {
   constexpr double kRounding = 1e-12;  // of the longest edge: a smaller gain is not passed on
+  const auto others = [k](int i) { return i < k ? i : i + 1; };
+  Mat3 edges;
+  Vec3 times;
+  for (int i = 0; i < 3; ++i) {
+    edges.col(i) = corners.col(k) - corners.col(others(i));
+    times[i] = arrival.time[mesh_.tets()(others(i), t)];
+  }
+  const Update update = update_vertex(edges, times);
+  const double gain = kRounding * std::sqrt(edges.colwise().squaredNorm().maxCoeff());
+  const int target = mesh_.tets()(k, t);
+  if (!(update.time < arrival.time[target] - gain)) return false;
+  arrival.time[target] = update.time;
+  arrival.label[target] = arrival.label[mesh_.tets()(others(update.from), t)];
+  return true;
+}
+
+// Vertices leave the queue in the order of their times, as in Dijkstra's algorithm, and each one tries to
+// improve those it shares a tet with. One that is improved again later is queued again: in obtuse tets and
+// with speeds that differ by direction an early time need not be final.
+Arrival EikonalSolver::march_from(Arrival arrival, const std::vector<char>& allowed) const {
   if (arrival.time.size() != mesh_.num_points() ||
       arrival.label.size() != static_cast<size_t>(mesh_.num_points()) ||
       (!allowed.empty() && static_cast<int>(allowed.size()) != mesh_.num_tets()))
@@ -160,27 +204,13 @@ Arrival EikonalSolver::march_from(Arrival arrival, const std::vector<char>& allo
   while (!queue.empty()) {
     const auto [time, vertex] = queue.top();
     queue.pop();
-    if (time > arrival.time[vertex]) continue;
+    if (time > arrival.time[vertex]) continue;  // improved since it was queued
     for (const int t : around_[vertex]) {
       if (!allowed.empty() && !allowed[t]) continue;
       const Eigen::Matrix<double, 3, 4> corners = metric_corners(t);
       for (int k = 0; k < 4; ++k) {
         const int target = mesh_.tets()(k, t);
-        if (target == vertex) continue;
-        Mat3 edges;
-        Vec3 times;
-        for (int i = 0, j = 0; j < 4; ++j)
-          if (j != k) {
-            edges.col(i) = corners.col(k) - corners.col(j);
-            times[i++] = arrival.time[mesh_.tets()(j, t)];
-          }
-        const Update update = update_vertex(edges, times);
-        const double gain = kRounding * std::sqrt(edges.colwise().squaredNorm().maxCoeff());
-        if (!(update.time < arrival.time[target] - gain)) continue;
-        arrival.time[target] = update.time;
-        arrival.label[target] =
-            arrival.label[mesh_.tets()(update.from < k ? update.from : update.from + 1, t)];
-        queue.emplace(update.time, target);
+        if (target != vertex && improve(t, k, corners, arrival)) queue.emplace(arrival.time[target], target);
       }
     }
   }

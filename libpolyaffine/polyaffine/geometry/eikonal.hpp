@@ -54,6 +54,7 @@ class EikonalSolver {
 
  private:
   Eigen::Matrix<double, 3, 4> metric_corners(int t) const;
+  bool improve(int t, int k, const Eigen::Matrix<double, 3, 4>& corners, Arrival& arrival) const;
 
   void start_straight(const MeshPoint& from, double time, int label, const std::vector<char>& allowed,
                       Arrival& initial) const;

@@ -8,11 +8,14 @@ namespace polyaffine {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kRounding = 1e-9;  // in barycentric coordinates
+// What rounding leaves of a barycentric coordinate that is zero.
+constexpr double kRounding = 1e-9;
 
-// Barycentric coordinates along the line from s = 0 to s = 1: at + s · slope.
+// Barycentric coordinates in a tet along the line from s = 0 to s = 1: at + s · slope.
 struct Line {
   Vec4 at, slope;
+
+  Vec4 operator()(double s) const { return at + s * slope; }
 };
 
 Line line_in(const TetMesh& mesh, int t, const Vec3& from, const Vec3& direction) {
@@ -51,6 +54,25 @@ int first_tet(const EikonalSolver& solver, const MeshPoint& from, const Vec3& st
   return -1;
 }
 
+// Where the line leaves a tet.
+struct Exit {
+  double s = kInfinity;
+  int face = -1;  // opposite to this corner; −1: nowhere
+};
+
+// The line leaves through the face whose coordinate falls to zero first; not through the one it came in by,
+// on which that coordinate is zero already.
+Exit leave(const TetMesh& mesh, int t, int entered_from, const Line& line) {
+  Exit out;
+  for (int k = 0; k < 4; ++k) {
+    const int next = mesh.neighbours()(k, t);
+    if (line.slope[k] >= 0 || (next >= 0 && next == entered_from)) continue;
+    const double s = -line.at[k] / line.slope[k];
+    if (s < out.s) out = {s, k};
+  }
+  return out;
+}
+
 }  // namespace
 
 double straight_time(const EikonalSolver& solver, const MeshPoint& from, int vertex,
@@ -58,30 +80,22 @@ double straight_time(const EikonalSolver& solver, const MeshPoint& from, int ver
   const TetMesh& mesh = solver.mesh();
   const Vec3 start = position(mesh, from.tet, from.barycentric);
   const Vec3 direction = mesh.points().col(vertex) - start;
-  int t = first_tet(solver, from, start, direction, allowed), entered = -1;
+  int t = first_tet(solver, from, start, direction, allowed), entered_from = -1;
   double s = 0, time = 0;
+  // From tet to tet along the line; a straight line crosses none of them twice.
   for (int crossed = 0; t >= 0 && crossed < mesh.num_tets(); ++crossed) {
     if (!allowed.empty() && !allowed[t]) return kInfinity;
     const Line line = line_in(mesh, t, start, direction);
-    if ((line.at + s * line.slope).minCoeff() < -kRounding) return kInfinity;
+    if (line(s).minCoeff() < -kRounding) return kInfinity;
     const double slowness = solver.travel_time(t, direction);
     if (has_vertex(mesh, t, vertex)) return time + (1 - s) * slowness;
-    double leave = kInfinity;
-    int face = -1;
-    for (int k = 0; k < 4; ++k) {
-      const int next = mesh.neighbours()(k, t);
-      if (line.slope[k] >= 0 || (next >= 0 && next == entered)) continue;
-      const double at = -line.at[k] / line.slope[k];
-      if (at >= leave) continue;
-      leave = at;
-      face = k;
-    }
-    if (face < 0) return kInfinity;
-    leave = std::max(leave, s);
-    time += (leave - s) * slowness;
-    s = leave;
-    entered = t;
-    t = mesh.neighbours()(face, t);
+    const Exit exit = leave(mesh, t, entered_from, line);
+    if (exit.face < 0) return kInfinity;
+    const double s_exit = std::max(exit.s, s);
+    time += (s_exit - s) * slowness;
+    s = s_exit;
+    entered_from = t;
+    t = mesh.neighbours()(exit.face, t);
   }
   return kInfinity;
 }

@@ -10,12 +10,17 @@
 namespace polyaffine {
 namespace {
 
+// Most triangles of a leaf: testing this many costs about as much as two more boxes.
 constexpr int kLeaf = 4;
+// Boxes that wait to be visited: one a level, and halving leaves fewer than 64 levels for any number of
+// triangles that fits an int.
+constexpr int kLevels = 64;
 
 Vec3 centre(const Points& points, const Eigen::Vector3i& triangle) {
   return points(Eigen::all, triangle).rowwise().mean();
 }
 
+// Solves origin + s direction = a + u (b − a) + v (c − a) by Cramer's rule; `triangle` holds a, b − a, c − a.
 bool meets(const Mat3& triangle, const Vec3& origin, const Vec3& direction, double from) {
   const Vec3 p = direction.cross(triangle.col(2));
   const double det = triangle.col(1).dot(p);
@@ -65,13 +70,14 @@ int TriangleTree::build(const Points& points, const Triangles& triangles, std::v
 }
 
 bool TriangleTree::hit(const Vec3& origin, const Vec3& direction, double from) const {
-  const Vec3 inverse = direction.cwiseInverse();
-  std::array<int, 64> stack;
+  const Vec3 inverse = direction.cwiseInverse();  // infinite along an axis, which the slabs below allow for
+  std::array<int, kLevels> stack;
   int size = 0;
   if (!boxes_.empty()) stack[size++] = 0;
   while (size > 0) {
     const int b = stack[--size];
     const Box& box = boxes_[b];
+    // The ray is inside a box where it is between all three pairs of its planes.
     const Vec3 one = (box.low - origin).cwiseProduct(inverse),
                other = (box.high - origin).cwiseProduct(inverse);
     const double enter = one.cwiseMin(other).maxCoeff(), leave = one.cwiseMax(other).minCoeff();

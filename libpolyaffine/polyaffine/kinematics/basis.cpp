@@ -8,13 +8,12 @@ namespace {
 
 using Lift = FunctionGroup::Lift;
 
-Eigen::Matrix<double, 9, 3> columns_of(const Mat3& m, int column) {
-  Eigen::Matrix<double, 9, 3> out = Eigen::Matrix<double, 9, 3>::Zero();
-  out.middleRows<3>(3 * column) = m;
-  return out;
-}
-
-// vec(Σ c⊗(N, ∇N)) → vec(Q Σ c⊗∇N + ∂Q·Σ c N)
+// Functions in local axes add u = Q Σ c_a N_a. With the vectors w = Σ c_a N_a and w_J = Σ c_a ∂N_a/∂X_J in
+// these axes, the gradient of u has the columns ∂Q/∂X_J w + Q w_J, a linear map of (w, w_1, w_2, w_3):
+//
+//     ⎡ ∂Q/∂X_1   Q         ⎤
+//     ⎢ ∂Q/∂X_2       Q     ⎥
+//     ⎣ ∂Q/∂X_3           Q ⎦
 Lift gradient_lift(const BasisSample& s) {
   Lift L = Lift::Zero(9, 12);
   for (int J = 0; J < 3; ++J) {
@@ -24,7 +23,11 @@ Lift gradient_lift(const BasisSample& s) {
   return L;
 }
 
-// vec(Σ c⊗(N, N_ξ, N_η)) → vec([Q Σ cN, Q Σ cN_ξ + Q_ξ Σ cN, Q Σ cN_η + Q_η Σ cN])
+// The same on a surface for (u, u_ξ, u_η) as a map of (w, w_ξ, w_η), with Q_ξ = Σ_J ∂Q/∂X_J X_J,ξ:
+//
+//     ⎡ Q           ⎤
+//     ⎢ Q_ξ   Q     ⎥
+//     ⎣ Q_η       Q ⎦
 Lift surface_lift(const BasisSample& s, const Vec3& X_xi, const Vec3& X_eta) {
   Lift L = Lift::Zero(9, 9);
   for (int k = 0; k < 3; ++k) L.block<3, 3>(3 * k, 3 * k) = s.Q;
@@ -35,7 +38,8 @@ Lift surface_lift(const BasisSample& s, const Vec3& X_xi, const Vec3& X_eta) {
   return L;
 }
 
-// What a kind of table writes for one function (d numbers) and, in local axes, its lift.
+// What a kind of table writes for one function, d numbers `stride` apart (d_local for a function in local
+// axes), and the lift that leads from the sums over such functions to the field.
 struct RowKind {
   int d, d_local;
   virtual ~RowKind() = default;
@@ -72,7 +76,7 @@ struct ValueRows : RowKind {
   void fill(double N, const Vec3&, int, bool, double* rows, Eigen::Index) const override { rows[0] = N; }
   Lift lift(const BasisSample& s, int) const override {
     Lift L = Lift::Zero(9, 9);
-    L.leftCols<3>() = columns_of(s.Q, 0);
+    L.topLeftCorner<3, 3>() = s.Q;
     return L;
   }
 };

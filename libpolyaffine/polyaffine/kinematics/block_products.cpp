@@ -1,104 +1,33 @@
 #include "polyaffine/kinematics/block_products.hpp"
 
 #include <algorithm>
-#include <iterator>
+
+#include <polyaffine/kinematics/tile_product.hpp>
 
 namespace polyaffine {
 namespace {
 
 using Group = PackedBlock::Group;
 
-constexpr int kTileRows = 3;  // packs
-constexpr int kTileColumns = 4;
-constexpr int kChunkPacks =
-    4;  // points of so many packs are multiplied at once: their rows stay in the cache
+// The points of this many packs are multiplied at once: their rows stay in the cache of the first level.
+constexpr int kChunkPacks = 4;
 
-// C += W Rᵀ of many rows: row pack s of W belongs to panel s / kTileRows, and a panel stores, for every k,
-// its kTileRows packs side by side. Each panel is multiplied with the functions before its own last column.
-class TileProduct {
- public:
-  // Starts a product; memory of former ones is used again.
-  void start(int row_packs, int columns) {
-    panels_ = (row_packs + kTileRows - 1) / kTileRows;
-    column_tiles_ = (columns + kTileColumns - 1) / kTileColumns;
-    last_.assign(panels_, 0);
-    offset_.resize(row_packs);
-    tiles_.assign(static_cast<std::size_t>(panels_) * column_tiles_ * kTile, 0.0);
-  }
+// Most numbers that a group's coordinates vec(3×d) take: d ≤ 4.
+constexpr int kMostCoordinates = 12;
 
-  void need_column(int row_pack, int column) {
-    int& last = last_[row_pack / kTileRows];
-    last = std::max(last, column / kTileColumns);
-  }
-
-  // Room for the rows at `depth` values of k.
-  void start_chunk(int depth) {
-    depth_ = depth;
-    W_.resize(static_cast<std::size_t>(panels_) * depth * kTileRows * kLanes);
-    for (int s = 0; s < std::ssize(offset_); ++s)
-      offset_[s] = ((s / kTileRows) * depth * kTileRows + s % kTileRows) * kLanes;
-  }
-  double* row(int row_pack, int k) { return W_.data() + offset_[row_pack] + k * kTileRows * kLanes; }
-  // R: `stride` numbers a k, of which the first columns are multiplied; padded to whole column tiles.
-  void multiply(const double* R, std::ptrdiff_t stride) {
-    for (int panel = 0; panel < panels_; ++panel)
-      for (int tile = 0; tile <= last_[panel]; ++tile)
-        multiply_tile(row(panel * kTileRows, 0), R + tile * kTileColumns, stride,
-                      tiles_.data() + (static_cast<std::ptrdiff_t>(panel) * column_tiles_ + tile) * kTile);
-  }
-
-  // The kLanes numbers of C of a row pack.
-  const double* entries(int row_pack, int column) const {
-    const int panel = row_pack / kTileRows, place = row_pack % kTileRows;
-    const std::ptrdiff_t tile = static_cast<std::ptrdiff_t>(panel) * column_tiles_ + column / kTileColumns;
-    return tiles_.data() + tile * kTile + ((column % kTileColumns) * kTileRows + place) * kLanes;
-  }
-
- private:
-  static constexpr int kTile = kTileRows * kTileColumns * kLanes;
-
-  void multiply_tile(const double* W, const double* R, std::ptrdiff_t stride, double* C) const {
-    Pack c[kTileColumns][kTileRows];
-#pragma GCC unroll 4
-    for (int b = 0; b < kTileColumns; ++b)
-#pragma GCC unroll 3
-      for (int a = 0; a < kTileRows; ++a) c[b][a] = load(C + (b * kTileRows + a) * kLanes);
-    for (int k = 0; k < depth_; ++k, W += kTileRows * kLanes, R += stride) {
-      Pack w[kTileRows];
-#pragma GCC unroll 3
-      for (int a = 0; a < kTileRows; ++a) w[a] = load(W + a * kLanes);
-#pragma GCC unroll 4
-      for (int b = 0; b < kTileColumns; ++b) {
-        const Pack r = broadcast(R[b]);
-#pragma GCC unroll 3
-        for (int a = 0; a < kTileRows; ++a) c[b][a] += w[a] * r;
-      }
-    }
-#pragma GCC unroll 4
-    for (int b = 0; b < kTileColumns; ++b)
-#pragma GCC unroll 3
-      for (int a = 0; a < kTileRows; ++a) store(C + (b * kTileRows + a) * kLanes, c[b][a]);
-  }
-
-  int panels_ = 0, column_tiles_ = 0, depth_ = 0;
-  std::vector<int> last_, offset_;
-  std::vector<double> W_, tiles_;
-};
-
-// One a thread: blocks are many and small.
+// One a thread, because blocks are many and small: its memory is used again.
 TileProduct& workspace() {
   thread_local TileProduct product;
   return product;
 }
 
-struct Component {
-  int i, j;
-};
-
-// Y = LᵀX at one pack for 9×n X and 3d×n Y; entry (i, c) of X has index i x.row + c x.column.
+// Where entry (row, column) of a matrix of packs stands: row · row_stride + column · column_stride.
 struct Strides {
   int row, column;
 };
+
+// Y = LᵀX at one pack, for X 9 × columns and Y 3d × columns. The block (J, e) of the lift L, 3 × 3, leads
+// from column e of the group's coordinates to column J of the field.
 void pull_back_columns(const Group& g, int pack, const Pack* X, Strides x, int columns, Pack* Y, Strides y) {
   for (int e = 0; e < g.d; ++e)
     for (int k = 0; k < 3; ++k) {
@@ -109,7 +38,7 @@ void pull_back_columns(const Group& g, int pack, const Pack* X, Strides x, int c
       }
       for (int c = 0; c < columns; ++c) Y[row * y.row + c * y.column] = Pack{};
       for (int J = 0; J < 3; ++J) {
-        if (g.place[J][e] < 0) continue;
+        if (g.place[J][e] < 0) continue;  // a block of zeros
         const double* L = g.lift_block(pack, J, e) + static_cast<std::ptrdiff_t>(3 * k * kLanes);
         const Pack l[3] = {load(L), load(L + kLanes), load(L + 2 * kLanes)};
         const Pack* from = X + 3 * J * x.row;
@@ -119,75 +48,124 @@ void pull_back_columns(const Group& g, int pack, const Pack* X, Strides x, int c
     }
 }
 
-// T = L_gᵀ A L_h at one pack, 3d_g × 3d_h, row r and column c at index r + 3 d_g c; A with both triangles.
+// T = L_gᵀ A L_h at one pack, 3d_g × 3d_h by columns; A with both triangles.
 void pull_back_tangent(const Group& g, const Group& h, int pack, const PackResponse& r, Pack* T) {
-  Pack half[12 * 9];  // L_hᵀA, 3d_h × 9
+  Pack half[kMostCoordinates * 9];  // L_hᵀ A, by rows of nine
   pull_back_columns(h, pack, r.A[0], {1, 9}, 9, half, {9, 1});
   pull_back_columns(g, pack, half, {1, 9}, 3 * h.d, T, {1, 3 * g.d});
 }
 
-// Writes, for the points of pack `pack` (the `slot`-th of the chunk), rows(g) · T_ij of every component.
-template <int d>
-void fill_rows(const Group& g, int d_h, int pack, int slot, const std::vector<Component>& components,
-               const double* T, TileProduct& product) {
-  const int packs = g.padded / kLanes;
-  for (int lane = 0; lane < kLanes; ++lane) {
-    const double* rows =
-        g.by_point.data() + static_cast<std::ptrdiff_t>(g.padded) * d * (kLanes * pack + lane);
-    for (std::size_t s = 0; s < components.size(); ++s)
-      for (int e = 0; e < d_h; ++e) {
-        Pack t[d];
-#pragma GCC unroll 4
-        for (int f = 0; f < d; ++f)
-          t[f] = broadcast(T[(components[s].i + 3 * f + 3 * d * (components[s].j + 3 * e)) * kLanes + lane]);
-        for (int a = 0; a < packs; ++a) {
-          Pack out = t[0] * load(rows + a * kLanes);
-#pragma GCC unroll 3
-          for (int f = 1; f < d; ++f) out += t[f] * load(rows + (f * packs + a) * kLanes);
-          store(product.row(static_cast<int>(s) * packs + a, (kLanes * slot + lane) * d_h + e), out);
-        }
+// The stiffness between the functions a of group g and b of group h, whose points q carry rows r_f(a, q) and
+// r_e(b, q), is a product of matrices for each pair (i, j) of components of the displacement:
+//
+//     K(a i, b j) = Σ_q Σ_f Σ_e r_f(a, q) T_q(i + 3f, j + 3e) r_e(b, q) = Σ_k W_ij(a, k) R(b, k),  k = (q,
+//     e), W_ij(a, k)  = Σ_f r_f(a, q) T_q(i + 3f, j + 3e),        R(b, k) = r_e(b, q).
+//
+// The W_ij of all pairs stand below each other as the rows of one TileProduct: functions a of pair s in the
+// row packs s · packs and on.
+class GroupStiffness {
+ public:
+  GroupStiffness(const PackedBlock& block, const Group& g, const Group& h)
+      : block_(block), g_(g), h_(h), same_(&g == &h), packs_(g.padded / kLanes) {
+    // K is symmetric: within one group the pairs with i > j are those with i < j mirrored.
+    for (int i = 0; i < 3; ++i)
+      for (int j = same_ ? i : 0; j < 3; ++j) pairs_.push_back({i, j});
+  }
+
+  // W Rᵀ for the tangents of the block's packs.
+  void multiply(const PackResponse* responses, TileProduct& product) const {
+    product.start(packs_ * num_pairs(), h_.padded);
+    for (int s = 0; s < num_pairs(); ++s)
+      for (int a = 0; a < packs_; ++a)
+        product.need_column(s * packs_ + a,
+                            is_symmetric(pairs_[s]) ? kLanes * a + kLanes - 1 : h_.num_functions - 1);
+    Pack T[kMostCoordinates * kMostCoordinates];
+    for (int begin = 0; begin < block_.num_packs(); begin += kChunkPacks) {
+      const int count = std::min(kChunkPacks, block_.num_packs() - begin);
+      product.start_chunk(count * kLanes * h_.d);
+      for (int slot = 0; slot < count; ++slot) {
+        pull_back_tangent(g_, h_, begin + slot, responses[begin + slot], T);
+        const auto* numbers = reinterpret_cast<const double*>(T);
+        if (g_.d == 4)
+          fill_rows<4>(begin + slot, slot, numbers, product);
+        else
+          fill_rows<3>(begin + slot, slot, numbers, product);
       }
-  }
-}
-
-void add_groups(const PackedBlock& block, const Group& g, const Group& h, int row0, int col0,
-                const PackResponse* responses, Matrix& K) {
-  const bool same = &g == &h;
-  std::vector<Component> components;
-  for (int i = 0; i < 3; ++i)
-    for (int j = same ? i : 0; j < 3; ++j) components.push_back({i, j});
-  const int packs = g.padded / kLanes;
-  const auto symmetric = [&](const Component& c) { return same && c.i == c.j; };
-  TileProduct& product = workspace();
-  product.start(packs * static_cast<int>(components.size()), h.padded);
-  for (std::size_t s = 0; s < components.size(); ++s)
-    for (int a = 0; a < packs; ++a)
-      product.need_column(static_cast<int>(s) * packs + a,
-                          symmetric(components[s]) ? kLanes * a + kLanes - 1 : h.num_functions - 1);
-
-  Pack T[12 * 12];
-  for (int begin = 0; begin < block.num_packs(); begin += kChunkPacks) {
-    const int count = std::min(kChunkPacks, block.num_packs() - begin);
-    product.start_chunk(count * kLanes * h.d);
-    for (int slot = 0; slot < count; ++slot) {
-      pull_back_tangent(g, h, begin + slot, responses[begin + slot], T);
-      (g.d == 4 ? fill_rows<4> : fill_rows<3>)(g, h.d, begin + slot, slot, components,
-                                               reinterpret_cast<const double*>(T), product);
+      product.multiply(h_.by_point.data() + static_cast<std::ptrdiff_t>(h_.padded) * h_.d * kLanes * begin,
+                       h_.padded);
     }
-    product.multiply(h.by_point.data() + static_cast<std::ptrdiff_t>(h.padded) * h.d * kLanes * begin,
-                     h.padded);
   }
 
-  for (std::size_t s = 0; s < components.size(); ++s) {
-    const auto [i, j] = components[s];
-    for (int b = 0; b < h.num_functions; ++b)
-      for (int pack = symmetric(components[s]) ? b / kLanes : 0; pack < packs; ++pack) {
-        const double* v = product.entries(static_cast<int>(s) * packs + pack, b);
-        const int first = kLanes * pack, last = std::min(first + kLanes, g.num_functions);
-        for (int a = symmetric(components[s]) ? std::max(first, b) : first; a < last; ++a) {
-          K(row0 + 3 * a + i, col0 + 3 * b + j) = v[a - first];
-          K(col0 + 3 * b + j, row0 + 3 * a + i) = v[a - first];
+  // Writes the product and its mirror image to the rows and columns of the two groups in K.
+  void write(const TileProduct& product, int row0, int col0, Matrix& K) const {
+    for (int s = 0; s < num_pairs(); ++s) {
+      const auto [i, j] = pairs_[s];
+      const bool symmetric = is_symmetric(pairs_[s]);
+      for (int b = 0; b < h_.num_functions; ++b)
+        for (int pack = symmetric ? b / kLanes : 0; pack < packs_; ++pack) {
+          const double* v = product.entries(s * packs_ + pack, b);
+          const int first = kLanes * pack, last = std::min(first + kLanes, g_.num_functions);
+          for (int a = symmetric ? std::max(first, b) : first; a < last; ++a) {
+            K(row0 + 3 * a + i, col0 + 3 * b + j) = v[a - first];
+            K(col0 + 3 * b + j, row0 + 3 * a + i) = v[a - first];
+          }
         }
+    }
+  }
+
+ private:
+  struct Pair {
+    int i, j;
+  };
+  int num_pairs() const { return static_cast<int>(pairs_.size()); }
+  // W_ij Rᵀ is symmetric itself, so that a ≥ b is enough.
+  bool is_symmetric(const Pair& pair) const { return same_ && pair.i == pair.j; }
+
+  // Writes W_ij of every pair at the points of pack `pack`, the `slot`-th of the chunk.
+  template <int d>
+  void fill_rows(int pack, int slot, const double* T, TileProduct& product) const {
+    const int packs = packs_;  // stores could change the member, for all the compiler knows
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const double* rows =
+          g_.by_point.data() + static_cast<std::ptrdiff_t>(g_.padded) * d * (kLanes * pack + lane);
+      for (int s = 0; s < num_pairs(); ++s)
+        for (int e = 0; e < h_.d; ++e) {
+          const int k = (kLanes * slot + lane) * h_.d + e;
+          const double* T_ij = T + (pairs_[s].i + 3 * d * (pairs_[s].j + 3 * e)) * kLanes + lane;
+          Pack t[d];
+#pragma GCC unroll 4
+          for (int f = 0; f < d; ++f) t[f] = broadcast(T_ij[3 * f * kLanes]);
+          for (int a = 0; a < packs; ++a) {
+            Pack out = t[0] * load(rows + a * kLanes);
+#pragma GCC unroll 3
+            for (int f = 1; f < d; ++f) out += t[f] * load(rows + (f * packs + a) * kLanes);
+            store(product.row(s * packs + a, k), out);
+          }
+        }
+    }
+  }
+
+  const PackedBlock& block_;
+  const Group &g_, &h_;
+  bool same_;
+  int packs_;  // of the functions of g
+  std::vector<Pair> pairs_;
+};
+
+// Writes y_i · values, the rows (i, field) of a force product, at the points of pack `pack`, the `slot`-th of
+// the chunk: y = LᵀS pulled back to the group, `values` (fields, padded to packs × points) the factors of S.
+void fill_force_rows(const Group& g, int pack, int slot, const Mat3Pack& S, const Matrix& values,
+                     TileProduct& product) {
+  const auto packs = static_cast<int>(values.rows()) / kLanes;
+  Pack Y[kMostCoordinates];
+  pull_back(g, pack, S, Y);
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const double* at = values.col(kLanes * pack + lane).data();
+    for (int e = 0; e < g.d; ++e)
+      for (int i = 0; i < 3; ++i) {
+        const Pack y = broadcast(Y[i + 3 * e][lane]);
+        for (int b = 0; b < packs; ++b)
+          store(product.row(i * packs + b, (kLanes * slot + lane) * g.d + e), y * load(at + b * kLanes));
       }
   }
 }
@@ -197,14 +175,18 @@ void add_groups(const PackedBlock& block, const Group& g, const Group& h, int ro
 void block_stiffness(const PackedBlock& block, const PackResponse* responses, Matrix& K) {
   const auto n = static_cast<Eigen::Index>(3 * block.functions().size());
   K.resize(n, n);
+  TileProduct& product = workspace();
+  const auto& groups = block.groups();
   int row0 = 0;
-  for (const auto& g : block.groups()) {
+  for (std::size_t g = 0; g < groups.size(); ++g) {
     int col0 = row0;
-    for (const Group* h = &g; h != block.groups().data() + block.groups().size(); ++h) {
-      add_groups(block, g, *h, row0, col0, responses, K);
-      col0 += 3 * h->num_functions;
+    for (std::size_t h = g; h < groups.size(); ++h) {
+      const GroupStiffness stiffness(block, groups[g], groups[h]);
+      stiffness.multiply(responses, product);
+      stiffness.write(product, row0, col0, K);
+      col0 += 3 * groups[h].num_functions;
     }
-    row0 += 3 * g.num_functions;
+    row0 += 3 * groups[g].num_functions;
   }
 }
 
@@ -214,28 +196,16 @@ void block_force_rows(const PackedBlock& block, const Mat3Pack* S, const Matrix&
   rows.resize(n, static_cast<Eigen::Index>(3 * block.functions().size()));
   Matrix padded = Matrix::Zero(packs * kLanes, kLanes * block.num_packs());
   padded.topLeftCorner(n, values.cols()) = values;
+  TileProduct& product = workspace();
   int first = 0;
   for (const auto& g : block.groups()) {
-    TileProduct& product = workspace();
     product.start(3 * packs, g.padded);
     for (int s = 0; s < 3 * packs; ++s) product.need_column(s, g.num_functions - 1);
-    Pack Y[12];
     for (int begin = 0; begin < block.num_packs(); begin += kChunkPacks) {
       const int count = std::min(kChunkPacks, block.num_packs() - begin);
       product.start_chunk(count * kLanes * g.d);
-      for (int slot = 0; slot < count; ++slot) {
-        pull_back(g, begin + slot, S[begin + slot], Y);
-        for (int lane = 0; lane < kLanes; ++lane) {
-          const double* at = padded.col(kLanes * (begin + slot) + lane).data();
-          for (int e = 0; e < g.d; ++e)
-            for (int i = 0; i < 3; ++i) {
-              const Pack y = broadcast(Y[i + 3 * e][lane]);
-              for (int b = 0; b < packs; ++b)
-                store(product.row(i * packs + b, (kLanes * slot + lane) * g.d + e),
-                      y * load(at + b * kLanes));
-            }
-        }
-      }
+      for (int slot = 0; slot < count; ++slot)
+        fill_force_rows(g, begin + slot, slot, S[begin + slot], padded, product);
       product.multiply(g.by_point.data() + static_cast<std::ptrdiff_t>(g.padded) * g.d * kLanes * begin,
                        g.padded);
     }

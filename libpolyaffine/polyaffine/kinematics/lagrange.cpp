@@ -3,8 +3,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
-#include <cstdint>
-#include <unordered_map>
 
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/rules/gauss.hpp>
@@ -20,6 +18,11 @@ int local_vertex(const TetMesh& mesh, int tet, int vertex) {
   return -1;
 }
 
+// One number for the edge between two vertices, whichever comes first.
+std::uint64_t key_of(int a, int b) {
+  return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint32_t>(std::max(a, b));
+}
+
 }  // namespace
 
 LagrangeBasis::LagrangeBasis(const TetMesh& mesh, int order, const EdgeMidpoints& midpoints)
@@ -27,13 +30,20 @@ LagrangeBasis::LagrangeBasis(const TetMesh& mesh, int order, const EdgeMidpoints
   if (order != 1 && order != 2)
     throw InputError("element order: found " + std::to_string(order) + ", expected 1 or 2");
   if (order == 1) return;
+  const EdgeNodes edges = add_edge_nodes(mesh);
+  for (int t = 0; t < mesh.num_tets(); ++t) straighten(t);
+  for (const auto& [ends, point] : midpoints)
+    if (const auto edge = edges.find(key_of(ends.first, ends.second)); edge != edges.end())
+      nodes_.col(edge->second) = point;
+  if (midpoints.empty()) return;
+  while (straighten_turned_over()) {
+  }
+}
 
-  // Numbered as they are met.
-  const auto key_of = [](int a, int b) {
-    return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint32_t>(std::max(a, b));
-  };
-  std::unordered_map<std::uint64_t, int> edges;
-  edges.reserve(static_cast<std::size_t>(mesh.num_tets()) * 3 / 2);
+// Numbers the edges as they are met, after the vertices.
+LagrangeBasis::EdgeNodes LagrangeBasis::add_edge_nodes(const TetMesh& mesh) {
+  EdgeNodes edges;
+  edges.reserve(static_cast<std::size_t>(mesh.num_tets()) * 3 / 2);  // a mesh has about 1.2 edges a tet
   elements_.conservativeResize(10, Eigen::NoChange);
   for (int t = 0; t < mesh.num_tets(); ++t)
     for (int e = 0; e < 6; ++e) {
@@ -42,27 +52,28 @@ LagrangeBasis::LagrangeBasis(const TetMesh& mesh, int order, const EdgeMidpoints
           edges.try_emplace(key, mesh.num_points() + static_cast<int>(edges.size())).first->second;
     }
   nodes_.conservativeResize(Eigen::NoChange, mesh.num_points() + static_cast<Eigen::Index>(edges.size()));
-  const auto straighten = [&](int t) {
-    for (int e = 0; e < 6; ++e)
-      nodes_.col(elements_(4 + e, t)) =
-          0.5 * (nodes_.col(elements_(kEdges[e][0], t)) + nodes_.col(elements_(kEdges[e][1], t)));
-  };
-  for (int t = 0; t < mesh.num_tets(); ++t) straighten(t);
-  for (const auto& [ends, point] : midpoints)
-    if (const auto edge = edges.find(key_of(ends.first, ends.second)); edge != edges.end())
-      nodes_.col(edge->second) = point;
-
-  // Straightening one element bends its neighbours back, so that a few passes may be needed.
-  for (bool changed = !midpoints.empty(); changed;) {
-    changed = false;
-    for (int t = 0; t < mesh.num_tets(); ++t) {
-      if (!turned_over(t)) continue;
-      changed = true;
-      straighten(t);
-    }
-  }
+  return edges;
 }
 
+void LagrangeBasis::straighten(int tet) {
+  for (int e = 0; e < 6; ++e)
+    nodes_.col(elements_(4 + e, tet)) =
+        0.5 * (nodes_.col(elements_(kEdges[e][0], tet)) + nodes_.col(elements_(kEdges[e][1], tet)));
+}
+
+// Straightens the elements whose curved edges turn them over; whether there were any. That changes their
+// neighbours, so that a few passes may be needed; in the end all edges are straight.
+bool LagrangeBasis::straighten_turned_over() {
+  bool changed = false;
+  for (Eigen::Index t = 0; t < elements_.cols(); ++t) {
+    if (!turned_over(static_cast<int>(t))) continue;
+    changed = true;
+    straighten(static_cast<int>(t));
+  }
+  return changed;
+}
+
+// By the Jacobian at Gauss points: it is a polynomial of degree three.
 bool LagrangeBasis::turned_over(int tet) const {
   static const TetRule rule = tet_rule(4);
   for (Eigen::Index q = 0; q < rule.weights.size(); ++q)

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <unordered_map>
 #include <vector>
 
 #include <polyaffine/kinematics/basis.hpp>
@@ -73,7 +75,11 @@ class LagrangeBasis : public Basis {
   Shape shape(const Vec4& barycentric) const;
   // ∂X/∂l, a column a barycentric coordinate.
   Eigen::Matrix<double, 3, 4> tangents(int tet, const Shape& shape) const;
+  using EdgeNodes = std::unordered_map<std::uint64_t, int>;  // node of each edge
+  EdgeNodes add_edge_nodes(const TetMesh& mesh);
+  void straighten(int tet);
   bool turned_over(int tet) const;
+  bool straighten_turned_over();
 
   int order_;
   Points nodes_;

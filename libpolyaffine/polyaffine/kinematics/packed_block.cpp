@@ -19,6 +19,33 @@ auto part(const FunctionGroup::Lift& L, int J, int e) {
   return L.block<3, 3>(3 * static_cast<Eigen::Index>(J), 3 * static_cast<Eigen::Index>(e));
 }
 
+// Lays out the 3×3 blocks (J, e) of a group's lifts. Many of them are zero or the same at all points (Q
+// stands three times in the lift of a gradient), so each is stored once and `place` tells where.
+void pack_lifts(const FunctionGroup& g, const PointBlock& block, int packs, Group& out) {
+  const auto is_zero = [&](int J, int e) {
+    return std::ranges::all_of(g.lift, [&](const auto& L) { return part(L, J, e).isZero(0); });
+  };
+  const auto are_equal = [&](int J, int e, int K, int f) {
+    return std::ranges::all_of(g.lift, [&](const auto& L) { return part(L, J, e) == part(L, K, f); });
+  };
+  std::vector<std::pair<int, int>> stored;  // (J, e) of the first of equal blocks
+  for (int J = 0; J < 3; ++J)
+    for (int e = 0; e < g.d; ++e) {
+      if (is_zero(J, e)) continue;
+      const auto equal = std::ranges::find_if(
+          stored, [&](const auto& other) { return are_equal(J, e, other.first, other.second); });
+      out.place[J][e] = static_cast<int>(equal - stored.begin());
+      if (equal == stored.end()) stored.emplace_back(J, e);
+    }
+  out.stored = static_cast<int>(stored.size());
+  for (int p = 0; p < packs; ++p)
+    for (const auto& [J, e] : stored)
+      for (int k = 0; k < 3; ++k)
+        for (int m = 0; m < 3; ++m)
+          for (int lane = 0; lane < kLanes; ++lane)
+            out.lift.push_back(part(g.lift[point_of(block, p, lane)], J, e)(m, k));
+}
+
 Group pack_group(const FunctionGroup& g, const PointBlock& block, int packs) {
   Group out;
   out.d = g.d;
@@ -36,27 +63,7 @@ Group pack_group(const FunctionGroup& g, const PointBlock& block, int packs) {
         for (int lane = 0; lane < kLanes; ++lane)
           out.by_pack.push_back(out.by_point(a, g.d * (kLanes * p + lane) + e));
   for (auto& row : out.place) std::fill(std::begin(row), std::end(row), -1);
-  if (!out.lifted) return out;
-  std::vector<std::pair<int, int>> stored;  // (J, e) of the first of equal blocks
-  for (int J = 0; J < 3; ++J)
-    for (int e = 0; e < g.d; ++e) {
-      if (std::all_of(g.lift.begin(), g.lift.end(), [&](const auto& L) { return part(L, J, e).isZero(0); }))
-        continue;
-      const auto equal = std::find_if(stored.begin(), stored.end(), [&](const auto& other) {
-        return std::all_of(g.lift.begin(), g.lift.end(), [&](const auto& L) {
-          return part(L, J, e) == part(L, other.first, other.second);
-        });
-      });
-      out.place[J][e] = static_cast<int>(equal - stored.begin());
-      if (equal == stored.end()) stored.emplace_back(J, e);
-    }
-  out.stored = static_cast<int>(stored.size());
-  for (int p = 0; p < packs; ++p)
-    for (const auto& [J, e] : stored)
-      for (int k = 0; k < 3; ++k)
-        for (int m = 0; m < 3; ++m)
-          for (int lane = 0; lane < kLanes; ++lane)
-            out.lift.push_back(part(g.lift[point_of(block, p, lane)], J, e)(m, k));
+  if (out.lifted) pack_lifts(g, block, packs, out);
   return out;
 }
 

@@ -1,29 +1,11 @@
 #include "polyaffine/mesh/digest.hpp"
 
-#include <cstddef>
-#include <cstdint>
 #include <span>
 #include <sstream>
 
+#include <polyaffine/core/fnv1a.hpp>
+
 namespace polyaffine {
-namespace {
-
-class Fnv1a {
- public:
-  template <class T>
-  void add(std::span<const T> values) {
-    for (const std::byte b : std::as_bytes(values))
-      hash_ = (hash_ ^ std::to_integer<std::uint64_t>(b)) * kPrime;
-  }
-  std::uint64_t value() const { return hash_; }
-
- private:
-  static constexpr std::uint64_t kPrime = 0x100000001b3;
-  std::uint64_t hash_ = 0xcbf29ce484222325;
-};
-
-}  // namespace
-
 std::string digest(const TetMesh& mesh) {
   Fnv1a hash;
   hash.add(std::span(mesh.points().data(), static_cast<std::size_t>(mesh.points().size())));

@@ -9,7 +9,10 @@
 namespace polyaffine {
 namespace {
 
+// A place is looked for in this many elements, those of the nearest candidates. An element has several
+// candidates: so many are sorted by their distance to find enough different elements.
 constexpr int kElementsTried = 12;
+constexpr std::ptrdiff_t kCandidates = 8 * kElementsTried;
 
 // Orthonormal Legendre polynomials on [0, 1] of degrees below n.
 Vector orthonormal(int n, double x) {
@@ -18,7 +21,8 @@ Vector orthonormal(int n, double x) {
   return p;
 }
 
-Vector product(const CellCounts& counts, const Vec3& x) {
+// All products P_i(x_1) P_j(x_2) P_k(x_3) of degrees below the counts.
+Vector products(const CellCounts& counts, const Vec3& x) {
   const Vector a = orthonormal(counts[0], x[0]), b = orthonormal(counts[1], x[1]),
                c = orthonormal(counts[2], x[2]);
   Vector out(a.size() * b.size() * c.size());
@@ -29,6 +33,7 @@ Vector product(const CellCounts& counts, const Vec3& x) {
   return out;
 }
 
+// The product Gauss rule of the unit cube.
 struct BoxRule {
   Points places;
   Vector weights;
@@ -58,7 +63,6 @@ struct Filling {
 
 // Points of the nearest candidates in different elements, the nearest first.
 std::vector<MeshPoint> nearest(const Filling& filling, const Vec3& place) {
-  constexpr std::ptrdiff_t kCandidates = 8 * kElementsTried;
   const Vector squares = (filling.places.colwise() - place).colwise().squaredNorm();
   std::vector<int> order(filling.points.size());
   for (std::size_t p = 0; p < order.size(); ++p) order[p] = static_cast<int>(p);
@@ -79,16 +83,19 @@ struct CellRule {
   Matrix amounts;
 };
 
+// With the moments m_k = Σ_p a_p P_k(x_p) of the amounts a_p at the candidates, their density is Σ_k m_k
+// P_k(x), and a Gauss point x_q of weight w_q carries w_q Σ_k m_k P_k(x_q). Where that does not point along
+// the sum (m_0), or no element holds the place, the cell is no box.
 CellRule fill(const Filling& filling, const PlaceOf& place_of, const CellCounts& counts) {
   const BoxRule box = box_rule(counts);
   Matrix moments = Matrix::Zero(filling.amounts.rows(), box.weights.size());
   for (Eigen::Index p = 0; p < filling.places.cols(); ++p)
-    moments += filling.amounts.col(p) * product(counts, filling.places.col(p)).transpose();
+    moments += filling.amounts.col(p) * products(counts, filling.places.col(p)).transpose();
   CellRule out{{}, Matrix(moments.rows(), box.weights.size())};
   const Vector sum = moments.col(0);
   for (Eigen::Index q = 0; q < box.weights.size(); ++q) {
     const Vec3 place = box.places.col(q);
-    out.amounts.col(q) = box.weights[q] * (moments * product(counts, place));
+    out.amounts.col(q) = box.weights[q] * (moments * products(counts, place));
     if (!(out.amounts.col(q).dot(sum) > 0)) return {};
     const auto found = find_place(place_of, {filling.cell, place}, nearest(filling, place));
     if (!found) return {};
@@ -171,7 +178,7 @@ SurfacePoints gauss_surface_cells(const SurfacePoints& candidates, const std::ve
                                   const Matrix& coordinates, const PlaceOf& place_of,
                                   const std::function<CellCounts(int cell)>& counts, int otherwise,
                                   const LagrangeBasis& geometry) {
-  Points places = Points::Constant(3, coordinates.cols(), 0.5);
+  Points places = Points::Constant(3, coordinates.cols(), 0.5);  // the third coordinate has one Gauss point
   places.topRows<2>() = coordinates;
   Points areas(3, coordinates.cols());
   for (Eigen::Index p = 0; p < areas.cols(); ++p) {
@@ -187,6 +194,7 @@ SurfacePoints gauss_surface_cells(const SurfacePoints& candidates, const std::ve
   const auto n = std::ssize(boxes.points);
   out.weights.setOnes(n);
   for (Points* columns : {&out.X, &out.X_xi, &out.X_eta}) columns->resize(3, n);
+  // Only the vector area n dA of a point counts: tangents of weight 1 whose product it is.
   for (std::ptrdiff_t q = 0; q < n; ++q) {
     const Vec3 area = boxes.amounts.col(q), along = area.unitOrthogonal();
     out.X.col(q) = geometry.position(boxes.points[q].tet, boxes.points[q].barycentric);

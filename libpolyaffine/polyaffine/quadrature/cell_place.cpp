@@ -5,8 +5,15 @@
 namespace polyaffine {
 namespace {
 
-constexpr double kAccuracy = 1e-8;  // of a cell
-constexpr double kOutside = 0.1;    // barycentric
+// A place is found when it is missed by this share of a cell; Newton's method goes on to kSettled of it,
+// where the quadratic convergence of one more step ends, so that the point does not depend on where it began.
+constexpr double kAccuracy = 1e-8, kSettled = 1e-3;
+// Barycentric coordinates by which a point may lie outside of its element: rounding; the bend of an element
+// at the surface, past which no element lies; and while Newton's method is on its way.
+constexpr double kRounding = 1e-9, kOutside = 0.1, kFarOutside = 1;
+// Barycentric step of the difference quotients, about the root of the rounding error.
+constexpr double kProbe = 1e-6;
+constexpr int kIterations = 8, kHalvings = 4;
 
 // Distance to the wanted place in the directions that count; nothing outside its cell.
 std::optional<Vector> missed(const PlaceOf& place_of, const CellPlace& wanted, Eigen::Index directions,
@@ -16,45 +23,69 @@ std::optional<Vector> missed(const PlaceOf& place_of, const CellPlace& wanted, E
   return Vector((found.place - wanted.place).head(directions));
 }
 
-std::optional<MeshPoint> newton(const PlaceOf& place_of, const CellPlace& wanted, MeshPoint at) {
-  constexpr double kProbe = 1e-6;
-  constexpr int kIterations = 8, kHalvings = 4;
-  std::vector<Eigen::Index> corners;
-  for (Eigen::Index k = 0; k < 4; ++k)
-    if (at.barycentric[k] != 0) corners.push_back(k);
-  const auto directions = std::ssize(corners) - 1;
-  const auto moved = [&](const Vector& step) {
-    MeshPoint out = at;
-    for (Eigen::Index k = 0; k < directions; ++k) {
-      out.barycentric[corners[k]] += step[k];
-      out.barycentric[corners.back()] -= step[k];
+// A point of an element that moves in the directions of its own barycentric coordinates; those that are zero
+// at the start stay so, which keeps a point of a face on the face.
+class MovingPoint {
+ public:
+  explicit MovingPoint(const MeshPoint& start) : at_(start) {
+    for (Eigen::Index k = 0; k < 4; ++k)
+      if (start.barycentric[k] != 0) corners_.push_back(k);
+  }
+  Eigen::Index directions() const { return std::ssize(corners_) - 1; }
+  const MeshPoint& at() const { return at_; }
+  void go_to(const MeshPoint& next) { at_ = next; }
+  MeshPoint moved(const Vector& step) const {
+    MeshPoint out = at_;
+    for (Eigen::Index k = 0; k < directions(); ++k) {
+      out.barycentric[corners_[k]] += step[k];
+      out.barycentric[corners_.back()] -= step[k];
     }
     return out;
-  };
-  auto miss = missed(place_of, wanted, directions, at);
-  for (int iteration = 0; miss && miss->norm() > 1e-3 * kAccuracy && iteration < kIterations; ++iteration) {
-    Matrix slope(directions, directions);
-    for (Eigen::Index k = 0; k < directions; ++k) {
-      const auto probe = missed(place_of, wanted, directions, moved(kProbe * Vector::Unit(directions, k)));
-      if (!probe) return {};
-      slope.col(k) = (*probe - *miss) / kProbe;
-    }
-    const Vector step = slope.partialPivLu().solve(-*miss);
+  }
+
+ private:
+  MeshPoint at_;
+  std::vector<Eigen::Index> corners_;
+};
+
+// Derivatives of the place by the directions of the point, as difference quotients; nothing where a probe
+// leaves the cell.
+std::optional<Matrix> slope_at(const PlaceOf& place_of, const CellPlace& wanted, const MovingPoint& point,
+                               const Vector& miss) {
+  const Eigen::Index n = point.directions();
+  Matrix slope(n, n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const auto probe = missed(place_of, wanted, n, point.moved(kProbe * Vector::Unit(n, k)));
+    if (!probe) return {};
+    slope.col(k) = (*probe - miss) / kProbe;
+  }
+  return slope;
+}
+
+// Newton's method in the element of a point, with steps halved until they come closer.
+std::optional<MeshPoint> newton(const PlaceOf& place_of, const CellPlace& wanted, const MeshPoint& start) {
+  MovingPoint point(start);
+  auto miss = missed(place_of, wanted, point.directions(), start);
+  for (int iteration = 0; miss && miss->norm() > kSettled * kAccuracy && iteration < kIterations;
+       ++iteration) {
+    const auto slope = slope_at(place_of, wanted, point, *miss);
+    if (!slope) return {};
+    const Vector step = slope->partialPivLu().solve(-*miss);
     if (!step.allFinite()) return {};
     bool closer = false;
     for (double part = 1; !closer && part > std::pow(0.5, kHalvings); part /= 2) {
-      const MeshPoint next = moved(part * step);
-      if (next.barycentric.minCoeff() < -1) continue;
-      const auto there = missed(place_of, wanted, directions, next);
+      const MeshPoint next = point.moved(part * step);
+      if (next.barycentric.minCoeff() < -kFarOutside) continue;
+      const auto there = missed(place_of, wanted, point.directions(), next);
       closer = there && there->norm() < miss->norm();
       if (!closer) continue;
-      at = next;
+      point.go_to(next);
       miss = there;
     }
     if (!closer) break;
   }
   if (!miss || !(miss->norm() <= kAccuracy)) return {};
-  return at;
+  return point.at();
 }
 
 }  // namespace
@@ -66,7 +97,7 @@ std::optional<MeshPoint> find_place(const PlaceOf& place_of, const CellPlace& wa
     const auto found = newton(place_of, wanted, start);
     if (!found) continue;
     if (!best || found->barycentric.minCoeff() > best->barycentric.minCoeff()) best = found;
-    if (best->barycentric.minCoeff() >= -1e-9) return best;
+    if (best->barycentric.minCoeff() >= -kRounding) return best;
   }
   if (best && best->barycentric.minCoeff() < -kOutside) best.reset();
   return best;

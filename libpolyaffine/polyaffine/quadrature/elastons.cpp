@@ -39,25 +39,6 @@ std::vector<Elaston> elastons(const TetMesh& mesh, const IntegrationRegions& reg
   return result;
 }
 
-std::array<Mat3, 4> strain_expansion(const Mat3& f, const std::array<Mat3, 3>& df) {
-  std::array<Mat3, 4> strain;
-  strain[0] = (f.transpose() * f - Mat3::Identity()) / 2;
-  for (int k = 0; k < 3; ++k) {
-    const Mat3 product = f.transpose() * df[k];
-    strain[k + 1] = (product + product.transpose()) / 2;
-  }
-  return strain;
-}
-
-double elaston_energy(const Elaston& elaston, const std::array<Mat3, 4>& strain, double lambda, double mu) {
-  double energy = 0;
-  for (int a = 0; a < 4; ++a)
-    for (int b = 0; b < 4; ++b)
-      energy += elaston.moments(a, b) * (lambda / 2 * strain[a].trace() * strain[b].trace() +
-                                         mu * strain[a].cwiseProduct(strain[b]).sum());
-  return energy;
-}
-
 QuadraturePoints elaston_points(const TetMesh& mesh, const IntegrationRegions& regions, int order) {
   const std::vector<Elaston> all = elastons(mesh, regions, order);
   if (order == 0) return regions.points;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include <polyaffine/core/types.hpp>
@@ -16,7 +15,9 @@ using Moments = Eigen::Matrix4d;
 Moments tet_moments(const TetMesh& mesh, int t, const Vec3& centre);
 
 /// An integration point that knows the shape of its region (Martin et al. 2010). Order 0 keeps the volume
-/// only (the other moments are zero), order 1 the moments to degree two.
+/// only (the other moments are zero), order 1 the moments to degree two. With a strain E_0 + Σ_k E_k (X −
+/// centre)_k that is linear in its region the energy of an isotropic linear law H is W = ½ Σ_ab m_ab E_a : H
+/// : E_b.
 struct Elaston {
   Vec3 centre;  ///< the integration point, mm
   Moments moments;
@@ -25,13 +26,6 @@ struct Elaston {
 /// One elaston for each integration region, about its point; the moments are sums over its tets.
 /// Throws std::invalid_argument when order is neither 0 nor 1.
 std::vector<Elaston> elastons(const TetMesh& mesh, const IntegrationRegions& regions, int order);
-
-/// Green–Lagrange strain at the centre and its derivatives, E_0 = ½(FᵀF − I), E_k = sym(Fᵀ ∂F/∂X_k) (1/mm).
-std::array<Mat3, 4> strain_expansion(const Mat3& f, const std::array<Mat3, 3>& df);
-
-/// W = ½ Σ_ab m_ab E_a : H : E_b (µJ) for the isotropic linear law H with Lamé constants λ, µ (kPa) and the
-/// strain E(X) = E_0 + Σ_k E_k (X − centre)_k.
-double elaston_energy(const Elaston& elaston, const std::array<Mat3, 4>& strain, double lambda, double mu);
 
 /// The elastons of integration regions as integration points. Order 0: the region's point with its volume.
 /// Order 1: four points of a quarter of the volume each at the vertices of the tetrahedron that has the

@@ -2,15 +2,13 @@
 
 #include <ida/ida.h>
 #include <ida/ida_ls.h>
-#include <nvector/nvector_serial.h>
-#include <sundials/sundials_linearsolver.h>
-#include <sundials/sundials_matrix.h>
 
 #include <cmath>
 
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/core/stopwatch.hpp>
 #include <polyaffine/solve/secant_updates.hpp>
+#include <polyaffine/solve/sundials_support.hpp>
 
 namespace polyaffine {
 namespace {
@@ -24,11 +22,8 @@ constexpr int kMaxIterations = 6;       // of Newton's method in a step
 constexpr double kStepGrowth = 1.5, kStepCut = 0.5;
 constexpr double kNoGrowth = 1e10;
 
-using ConstMap = Eigen::Map<const Vector>;
-
-ConstMap view(N_Vector v) {
-  return {N_VGetArrayPointer(v), N_VGetLength(v)};
-}
+using sundials::check;
+using sundials::view;
 
 // The system keeps its own factorisation; SUNDIALS sees a matrix and a direct solver without content.
 SUNMatrix_ID matrix_id(SUNMatrix) {
@@ -166,12 +161,6 @@ Vector error_tested(const StateLayout& layout) {
   return out.minCoeff() > 0 ? Vector() : out;
 }
 
-void check(int flag, const char* what) {
-  if (flag < 0)
-    throw ComputationError(std::string("time integration: ") + what + " failed (IDA code " +
-                           std::to_string(flag) + ")");
-}
-
 std::string describe(int flag) {
   switch (flag) {
     case IDA_ERR_FAIL:
@@ -192,27 +181,22 @@ std::string describe(int flag) {
 }  // namespace
 
 struct DaeIntegrator::Implementation {
-  SUNContext context = nullptr;
-  void* ida = nullptr;
-  N_Vector y = nullptr, rate = nullptr;
-  SUNMatrix matrix = nullptr;
+  sundials::Context context;
+  sundials::NVector y, rate;
+  sundials::Matrix matrix;
   std::unique_ptr<LinearSystem> linear;
   Linearised linearised;
   DirectSolver direct;
-  SUNLinearSolver solver = nullptr;
+  sundials::LinearSolver solver;
   UserData user;
   double t = 0, max_step = 0;
   Vector y_out, rate_out;
   std::string failure;
+  void* ida = nullptr;
 
   explicit Implementation(const System& system) : linear(system.make_linear()), linearised(system, *linear) {}
   ~Implementation() {
     if (ida) IDAFree(&ida);
-    if (solver) SUNLinSolFree(solver);
-    if (matrix) SUNMatDestroy(matrix);
-    for (N_Vector v : {y, rate})
-      if (v) N_VDestroy(v);
-    if (context) SUNContext_Free(&context);
   }
 };
 
@@ -230,20 +214,16 @@ DaeIntegrator::DaeIntegrator(const System& system, const DaeOptions& options, do
   m.t = t;
   m.y_out = y;
   m.rate_out = rate;
-  check(SUNContext_Create(nullptr, &m.context), "SUNContext_Create");
-  const auto n = static_cast<sunindextype>(system.size());
-  m.y = N_VNew_Serial(n, m.context);
-  m.rate = N_VNew_Serial(n, m.context);
-  Eigen::Map<Vector>(N_VGetArrayPointer(m.y), n) = y;
-  Eigen::Map<Vector>(N_VGetArrayPointer(m.rate), n) = rate;
+  m.y = sundials::make_vector(y, m.context);
+  m.rate = sundials::make_vector(rate, m.context);
   m.direct.ida = m.ida = IDACreate(m.context);
-  check(IDAInit(m.ida, residual, t, m.y, m.rate), "IDAInit");
+  check(IDAInit(m.ida, residual, t, m.y.get(), m.rate.get()), "IDAInit");
   check(IDASetUserData(m.ida, &m.user), "IDASetUserData");
   check(IDASetErrFile(m.ida, nullptr), "IDASetErrFile");
   check(IDAWFtolerances(m.ida, error_weights), "IDAWFtolerances");
-  m.matrix = make_matrix(m.context);
-  m.solver = make_solver(m.direct, m.context);
-  check(IDASetLinearSolver(m.ida, m.solver, m.matrix), "IDASetLinearSolver");
+  m.matrix.reset(make_matrix(m.context));
+  m.solver.reset(make_solver(m.direct, m.context));
+  check(IDASetLinearSolver(m.ida, m.solver.get(), m.matrix.get()), "IDASetLinearSolver");
   check(IDASetJacFn(m.ida, jacobian), "IDASetJacFn");
   check(IDASetMaxOrd(m.ida, options.max_order), "IDASetMaxOrd");
   // Iterations learn the tangent's change with α, and that of the state, better than a factor on the step.
@@ -254,10 +234,9 @@ DaeIntegrator::DaeIntegrator(const System& system, const DaeOptions& options, do
   check(IDASetEtaMin(m.ida, kStepCut), "IDASetEtaMin");
   check(IDASetEtaLow(m.ida, kStepCut), "IDASetEtaLow");
   check(IDASetEtaMinErrFail(m.ida, kStepCut), "IDASetEtaMinErrFail");
-  if (Vector by_unknown = error_tested(system.layout); by_unknown.size() > 0) {
-    N_Vector tested = N_VMake_Serial(n, by_unknown.data(), m.context);
-    check(IDASetId(m.ida, tested), "IDASetId");  // copies
-    N_VDestroy(tested);
+  if (const Vector by_unknown = error_tested(system.layout); by_unknown.size() > 0) {
+    const sundials::NVector tested = sundials::make_vector(by_unknown, m.context);
+    check(IDASetId(m.ida, tested.get()), "IDASetId");  // copies
     check(IDASetSuppressAlg(m.ida, SUNTRUE), "IDASetSuppressAlg");
   }
   if (options.max_step > 0) check(IDASetMaxStep(m.ida, options.max_step), "IDASetMaxStep");
@@ -274,23 +253,22 @@ DaeStatus DaeIntegrator::step(double limit) {
   check(IDASetEtaFixedStepBounds(m.ida, 1.0, may_grow ? kStepGrowth : kNoGrowth), "IDASetEtaFixedStepBounds");
   check(IDASetStopTime(m.ida, limit), "IDASetStopTime");
   double reached = m.t;
-  const int flag = IDASolve(m.ida, limit, &reached, m.y, m.rate, IDA_ONE_STEP);
+  const int flag = IDASolve(m.ida, limit, &reached, m.y.get(), m.rate.get(), IDA_ONE_STEP);
   if (flag < 0) {
     m.failure = describe(flag);
     return DaeStatus::failed;
   }
   m.t = reached;
-  m.y_out = view(m.y);
-  m.rate_out = view(m.rate);
+  m.y_out = view(m.y.get());
+  m.rate_out = view(m.rate.get());
   return DaeStatus::reached;
 }
 
 void DaeIntegrator::interpolate(double t, Vector& y) const {
   auto& m = *impl_;
-  N_Vector out = N_VClone(m.y);
-  check(IDAGetDky(m.ida, t, 0, out), "IDAGetDky");
-  y = view(out);
-  N_VDestroy(out);
+  const sundials::NVector out(N_VClone(m.y.get()));
+  check(IDAGetDky(m.ida, t, 0, out.get()), "IDAGetDky");
+  y = view(out.get());
 }
 
 double DaeIntegrator::time() const {

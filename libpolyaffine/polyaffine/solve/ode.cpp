@@ -1,7 +1,6 @@
 #include "polyaffine/solve/ode.hpp"
 
 #include <cvode/cvode.h>
-#include <nvector/nvector_serial.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
@@ -9,27 +8,17 @@
 #include <exception>
 #include <memory>
 #include <stdexcept>
-#include <type_traits>
+
+#include <polyaffine/solve/sundials_support.hpp>
 
 namespace polyaffine {
 namespace {
 
-struct Context {
-  Context() {
-    if (SUNContext_Create(nullptr, &handle) != 0) throw std::runtime_error("SUNDIALS: no context");
-  }
-  ~Context() { SUNContext_Free(&handle); }
-  Context(const Context&) = delete;
-  Context& operator=(const Context&) = delete;
-  SUNContext handle = nullptr;
-};
-
 struct FreeCvode {
   void operator()(void* memory) const { CVodeFree(&memory); }
 };
-template <class Handle, auto free_function>
-using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, decltype([](Handle h) { free_function(h); })>;
 
+// What CVODE hands back to evaluate_rate.
 struct Callback {
   const OdeRate* rate;
   Vector state, derivative;
@@ -40,8 +29,7 @@ constexpr int kUnrecoverable = -1, kRecoverable = 1;
 
 int evaluate_rate(double time, N_Vector state, N_Vector derivative, void* user) {
   auto& callback = *static_cast<Callback*>(user);
-  const auto size = callback.state.size();
-  callback.state = Eigen::Map<const Vector>(N_VGetArrayPointer(state), size);
+  callback.state = sundials::view(state);
   try {
     (*callback.rate)(time, callback.state, callback.derivative);
   } catch (...) {
@@ -49,11 +37,9 @@ int evaluate_rate(double time, N_Vector state, N_Vector derivative, void* user) 
     return kUnrecoverable;
   }
   if (!callback.derivative.allFinite()) return kRecoverable;
-  Eigen::Map<Vector>(N_VGetArrayPointer(derivative), size) = callback.derivative;
+  sundials::values(derivative) = callback.derivative;
   return 0;
 }
-
-void silence(int, const char*, const char*, char*, void*) {}
 
 OdeStop stop_reason(int flag) {
   switch (flag) {
@@ -94,26 +80,22 @@ OdeSolution solve_ode(const OdeRate& rate, double start_time, const Vector& init
                       const OdeOptions& options) {
   check_arguments(start_time, initial, times, options);
   const auto size = initial.size();
-  const Context context;
-  const Owned<N_Vector, N_VDestroy> state(N_VNew_Serial(size, context.handle));
-  Eigen::Map<Vector> y(N_VGetArrayPointer(state.get()), size);
-  y = initial;
-
+  const sundials::Context context;
+  const sundials::NVector state = sundials::make_vector(initial, context);
   Callback callback{&rate, initial, Vector::Zero(size), nullptr};
-  const std::unique_ptr<void, FreeCvode> memory(CVodeCreate(CV_BDF, context.handle));
+  const std::unique_ptr<void, FreeCvode> memory(CVodeCreate(CV_BDF, context));
   void* const cvode = memory.get();
-  const Owned<SUNMatrix, SUNMatDestroy> matrix(SUNDenseMatrix(size, size, context.handle));
-  const Owned<SUNLinearSolver, SUNLinSolFree> solver(
-      SUNLinSol_Dense(state.get(), matrix.get(), context.handle));
-  if (CVodeInit(cvode, evaluate_rate, start_time, state.get()) != CV_SUCCESS ||
-      CVodeSStolerances(cvode, options.relative_tolerance, options.absolute_tolerance) != CV_SUCCESS ||
-      CVodeSetUserData(cvode, &callback) != CV_SUCCESS ||
-      CVodeSetErrHandlerFn(cvode, silence, nullptr) != CV_SUCCESS ||
-      CVodeSetMaxStep(cvode, options.max_step) != CV_SUCCESS ||
-      CVodeSetStopTime(cvode, times[times.size() - 1]) != CV_SUCCESS ||
-      CVodeSetLinearSolver(cvode, solver.get(), matrix.get()) != CVLS_SUCCESS) {
-    throw std::runtime_error("solve_ode: CVODE could not be set up");
-  }
+  const sundials::Matrix matrix(SUNDenseMatrix(size, size, context));
+  const sundials::LinearSolver solver(SUNLinSol_Dense(state.get(), matrix.get(), context));
+  using sundials::check;
+  check(CVodeInit(cvode, evaluate_rate, start_time, state.get()), "CVodeInit");
+  check(CVodeSStolerances(cvode, options.relative_tolerance, options.absolute_tolerance),
+        "CVodeSStolerances");
+  check(CVodeSetUserData(cvode, &callback), "CVodeSetUserData");
+  check(CVodeSetErrHandlerFn(cvode, sundials::silence, nullptr), "CVodeSetErrHandlerFn");
+  check(CVodeSetMaxStep(cvode, options.max_step), "CVodeSetMaxStep");
+  check(CVodeSetStopTime(cvode, times[times.size() - 1]), "CVodeSetStopTime");
+  check(CVodeSetLinearSolver(cvode, solver.get(), matrix.get()), "CVodeSetLinearSolver");
 
   OdeSolution solution;
   solution.states.resize(size, times.size());
@@ -136,7 +118,7 @@ OdeSolution solve_ode(const OdeRate& rate, double start_time, const Vector& init
         break;
       }
     }
-    solution.states.col(reached) = y;
+    solution.states.col(reached) = sundials::view(state.get());
   }
   solution.states.conservativeResize(size, reached);
   long solver_evaluations = 0;

@@ -67,16 +67,6 @@ TEST(Activation, TakesTheEarliestOfSeveralSitesAndMovesThemToTheMesh) {
   EXPECT_NEAR(slab.time_at(times, Vec3(8, 0, 4)), 40, 1e-9);
 }
 
-TEST(Activation, RegionMeans) {
-  const Slab slab;
-  std::vector<int> label(slab.mesh.num_tets());
-  for (int t = 0; t < slab.mesh.num_tets(); ++t) label[t] = slab.mesh.tet_centroid(t)[0] < 0 ? 0 : 1;
-  const Vector mean = region_means(slab.mesh, slab.mesh.points().row(0).transpose(), label, 2);
-  EXPECT_NEAR(mean[0], -10, 1e-10);
-  EXPECT_NEAR(mean[1], 10, 1e-10);
-  EXPECT_THROW(region_means(slab.mesh, slab.mesh.points().row(0).transpose(), label, 3), InputError);
-}
-
 TEST(Activation, RejectsBadInput) {
   const Slab slab;
   const std::vector<ActivationSite> site{{Vec3(0, 0, 2), 0}};

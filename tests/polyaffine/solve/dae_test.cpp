@@ -47,8 +47,8 @@ struct SmallSystem {
 
 // ẏ = z + cos t − sin² t, 0 = z − y²: of index 1, with y = sin t, z = sin² t.
 SmallSystem index_one(const Vector& tolerance) {
-  SmallSystem out{{}, tolerance};
-  Equations& s = out.equations;
+  SmallSystem small{{}, tolerance};
+  Equations& s = small.equations;
   s.by_rate = Vector(Eigen::Vector2d(1, 0)).asDiagonal();
   s.R = [](double t, const Vector& y, const Vector& rate, Vector& out) {
     out.resize(2);
@@ -56,7 +56,7 @@ SmallSystem index_one(const Vector& tolerance) {
     return true;
   };
   s.by_y = [](double, const Vector& y) { return (Matrix(2, 2) << 0, -1, -2 * y[0], 1).finished(); };
-  return out;
+  return small;
 }
 
 DaeOptions options(double tolerance) {

@@ -9,6 +9,7 @@
 #include <polyaffine/core/threads.hpp>
 #include <polyaffine/kinematics/lagrange.hpp>
 #include <polyaffine/material/neo_hookean.hpp>
+#include <polyaffine/material/viscosity.hpp>
 
 #include "support/labelled_box.hpp"
 #include "support/matrix_system.hpp"
