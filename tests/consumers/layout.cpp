@@ -44,7 +44,8 @@ class OneTet : public Basis {
 // W = a ln(J) + b exp(J) + c ∛J, whose derivatives by F are those by J times the cofactors.
 class OfVolume : public Law {
  public:
-  void respond(PackPoints, const Mat3Pack& F, PointState, bool tangent, PackResponse& r) const override {
+  void respond(PackPoints, const PackMotion& at, bool tangent, PackResponse& r) const override {
+    const Mat3Pack& F = at.F;
     const Mat3Pack cof = cofactor(F);
     const Pack J = determinant(F, cof), root = cbrt(J);
     add_volumetric(F, cof,

@@ -97,9 +97,6 @@ void check_rings(const Reduction& reduction, const Place& place) {
              " angles, expected one for each of the " + each);
 }
 
-// Tents about the middles of the AHA segments.
-}
-
 void check_reduction(const Reduction& reduction, const Place& place) {
   std::set<std::string> seen;
   for (const std::string& monomial : reduction.enrichment.value_or(std::vector<std::string>{})) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <polyaffine/kinematics/field_table.hpp>
 #include <polyaffine/linear/linear_system.hpp>
 #include <polyaffine/system/state.hpp>
 
