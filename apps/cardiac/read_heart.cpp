@@ -14,8 +14,6 @@
 
 #ifdef CARDIAC_WITH_VTK
 #include <polyaffine/vtk/read_data.hpp>
-#else
-#include <polyaffine/mesh_io/vtu.hpp>
 #endif
 
 namespace cardiac::app {
@@ -99,7 +97,7 @@ std::vector<SurfaceLabel> surface_labels(const std::vector<std::string>& words) 
 MeshData read_any_mesh(const std::filesystem::path& file) {
   if (polyaffine::has_reader(file)) return polyaffine::read_mesh_data(file);
   const std::string extension = polyaffine::lower_extension(file);
-  if (extension != ".vtu" && extension != ".vtk" && extension != ".vtp")
+  if (extension != ".vtk" && extension != ".vtp")
     throw InputError(
         file.string() + ": found the extension \"" + file.extension().string() +
         "\", expected a mesh: .vtu, .vtk, .msh, .pts, .elem, or a closed surface: .stl, .off, .obj, "
@@ -107,7 +105,6 @@ MeshData read_any_mesh(const std::filesystem::path& file) {
 #ifdef CARDIAC_WITH_VTK
   return polyaffine::read_vtk_data(file);
 #else
-  if (extension == ".vtu") return polyaffine::read_vtu_data(file);
   throw InputError(file.string() +
                    ": this build reads of VTK's files only .vtu (CMake option POLYAFFINE_WITH_VTK)");
 #endif

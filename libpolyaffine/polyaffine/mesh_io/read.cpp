@@ -5,6 +5,7 @@
 #include <polyaffine/mesh_io/gmsh.hpp>
 #include <polyaffine/mesh_io/opencarp.hpp>
 #include <polyaffine/mesh_io/surface_formats.hpp>
+#include <polyaffine/mesh_io/vtu.hpp>
 
 namespace polyaffine {
 namespace {
@@ -13,8 +14,9 @@ using Reader = MeshData (*)(const std::filesystem::path&);
 
 const std::map<std::string, Reader>& readers() {
   static const std::map<std::string, Reader> all{
-      {".msh", read_gmsh}, {".pts", read_opencarp}, {".elem", read_opencarp}, {".lon", read_opencarp},
-      {".stl", read_stl},  {".off", read_off},      {".obj", read_obj},       {".ply", read_ply}};
+      {".msh", read_gmsh},     {".pts", read_opencarp}, {".elem", read_opencarp},
+      {".lon", read_opencarp}, {".vtu", read_vtu_data}, {".stl", read_stl},
+      {".off", read_off},      {".obj", read_obj},      {".ply", read_ply}};
   return all;
 }
 

@@ -4,8 +4,8 @@
 
 namespace polyaffine {
 
-/// Does a reader of this folder know the extension (.msh; .pts, .elem, .lon; .stl, .off, .obj, .ply; in
-/// small or capital letters)?
+/// Does a reader of this folder know the extension (.vtu; .msh; .pts, .elem, .lon; .stl, .off, .obj, .ply;
+/// in small or capital letters)?
 bool has_reader(const std::filesystem::path& file);
 
 /// Reads a mesh by the extension of its file. Throws InputError for an extension without a reader, or as the

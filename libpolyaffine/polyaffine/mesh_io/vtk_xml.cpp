@@ -65,7 +65,6 @@ std::string DataArray::attribute(const std::string& name, const std::string& oth
 
 Document::Document(const std::filesystem::path& path) : scan(path) {
   std::vector<std::string> open;
-  int pieces = 0;
   while (!open.empty() || !scan.at_end()) {
     const std::size_t begin = scan.position();
     const std::string_view text = scan.up_to("<");
@@ -87,9 +86,9 @@ Document::Document(const std::filesystem::path& path) : scan(path) {
       const std::string around = open.empty() ? "" : open.back();
       const Attributes found = attributes(scan, tag.substr(name.size()));
       if (around.empty()) check_root(name, found);
-      if (name == "Piece" && ++pieces > 1) fail(begin, "found a second piece, expected a mesh in one piece");
-      if (name == "Piece") piece = found;
-      if (name == "DataArray") arrays.push_back({around, found, {}, scan.position()});
+      if (name == "Piece") pieces.push_back(found);
+      if (name == "DataArray")
+        arrays.push_back({around, static_cast<int>(pieces.size()) - 1, found, {}, scan.position()});
       if (name == "AppendedData") {
         appended_base64 = value_of(found, "encoding", "raw") == "base64";
         scan.up_to("_");
@@ -105,17 +104,18 @@ Document::Document(const std::filesystem::path& path) : scan(path) {
 void Document::check_root(const std::string& name, const Attributes& attributes) {
   if (name != "VTKFile" || value_of(attributes, "type", "") != "UnstructuredGrid")
     scan.fail("found another file, expected a VTK XML file of the type UnstructuredGrid");
-  if (value_of(attributes, "byte_order", "LittleEndian") != "LittleEndian")
-    scan.fail("found big-endian numbers, expected byte_order=\"LittleEndian\"");
+  big_endian = value_of(attributes, "byte_order", "LittleEndian") == "BigEndian";
   file = attributes;
 }
 
-const DataArray& Document::array(const std::string& section, const std::string& name) const {
+const DataArray& Document::array(int piece, const std::string& section, const std::string& name) const {
   for (const DataArray& candidate : arrays)
-    if (candidate.section == section && (name.empty() || candidate.attribute("Name") == name))
+    if (candidate.piece == piece && candidate.section == section &&
+        (name.empty() || candidate.attribute("Name") == name))
       return candidate;
   throw InputError(scan.file().string() + ": found no array " + name + (name.empty() ? "" : " ") + "in <" +
-                   section + ">, expected a VTK XML file of an unstructured grid");
+                   section + "> of piece " + std::to_string(piece + 1) +
+                   ", expected a VTK XML file of an unstructured grid");
 }
 
 void Document::fail(std::size_t position, const std::string& what) {

@@ -15,6 +15,7 @@ using Attributes = std::map<std::string, std::string>;
 /// An element <DataArray>.
 struct DataArray {
   std::string section;  ///< name of the element around it: Points, Cells, PointData, CellData, …
+  int piece;            ///< number of the <Piece> it stands in, from 0
   Attributes attributes;
   std::string_view text;  ///< what stands between its tags
   std::size_t position;   ///< of the text in the file
@@ -23,8 +24,7 @@ struct DataArray {
   std::string attribute(const std::string& name, const std::string& otherwise = "") const;
 };
 
-/// A file with one piece, taken apart; nothing is decoded. Throws InputError, naming file and line, for
-/// another kind of file, more pieces, or big-endian numbers.
+/// A file taken apart; nothing is decoded. Throws InputError, naming file and line, for another kind of file.
 class Document {
  public:
   explicit Document(const std::filesystem::path& file);
@@ -33,12 +33,15 @@ class Document {
 
   FileScanner scan;
   std::vector<DataArray> arrays;
-  Attributes file, piece;     ///< attributes of <VTKFile> and <Piece>
-  std::string_view appended;  ///< all behind the _ of <AppendedData>
+  Attributes file;                 ///< attributes of <VTKFile>
+  std::vector<Attributes> pieces;  ///< attributes of each <Piece>
+  bool big_endian = false;         ///< byte order of the numbers
+  std::string_view appended;       ///< all behind the _ of <AppendedData>
   bool appended_base64 = false;
 
-  /// The array of a section, by its name (empty: the first one). Throws InputError when it is missing.
-  const DataArray& array(const std::string& section, const std::string& name) const;
+  /// The array of a section of a piece, by its name (empty: the first one). Throws InputError when it is
+  /// missing.
+  const DataArray& array(int piece, const std::string& section, const std::string& name) const;
 
   /// Fails at a place of the file.
   [[noreturn]] void fail(std::size_t position, const std::string& what);

@@ -14,6 +14,7 @@ namespace {
 // What numbers may take: this and a hundred times the size of the file.
 constexpr std::size_t kMemory = std::size_t{256} << 20U;
 
+// Numbers of type T one after the other, in this machine's order of bytes (little-endian).
 template <class T>
 std::vector<double> numbers(const std::string& bytes) {
   std::vector<double> out(bytes.size() / sizeof(T));
@@ -23,6 +24,13 @@ std::vector<double> numbers(const std::string& bytes) {
     out[i] = static_cast<double>(number);
   }
   return out;
+}
+
+// Turns the bytes of every word of `width` bytes round.
+void turn_round(std::string& bytes, std::size_t width) {
+  for (std::size_t at = 0; at + width <= bytes.size(); at += width)
+    std::reverse(bytes.begin() + static_cast<std::ptrdiff_t>(at),
+                 bytes.begin() + static_cast<std::ptrdiff_t>(at + width));
 }
 
 struct Type {
@@ -63,7 +71,8 @@ class ByteStream {
       std::size_t from = 0;
       const auto [end, error] = std::from_chars(offset.data(), offset.data() + offset.size(), from);
       if (error != std::errc() || end != offset.data() + offset.size() || from > document.appended.size())
-        fail("found the offset \"" + offset.substr(0, 30) + "\", expected a place in the appended data");
+        fail("found the offset \"" + offset.substr(0, 30) +
+             "\", expected a place in the appended data (is the file cut off?)");
       left_ = document.appended.substr(from);
     } else {
       left_.remove_prefix(std::min(left_.find_first_not_of(kSpace), left_.size()));
@@ -109,22 +118,30 @@ class ByteStream {
   bool base64_ = true;
 };
 
-std::size_t header_word(const std::string& bytes, std::size_t index, std::size_t width) {
-  std::uint64_t out = 0;
-  std::memcpy(&out, bytes.data() + index * width, width);  // little-endian
-  return out;
-}
+/// The head of an array: words of 4 or 8 bytes that tell sizes.
+struct Head {
+  std::size_t width;
+  bool big_endian;
 
-// Blocks of zlib behind a header: their number, the size of each and of the last one (0: as the others), then
+  std::size_t word(const std::string& bytes, std::size_t index) const {
+    std::string own = bytes.substr(index * width, width);
+    if (big_endian) turn_round(own, width);
+    std::uint64_t out = 0;
+    std::memcpy(&out, own.data(), width);
+    return out;
+  }
+};
+
+// Blocks of zlib behind a head: their number, the size of each and of the last one (0: as the others), then
 // the compressed sizes.
-std::string inflated(ByteStream& stream, std::size_t width, std::size_t size) {
-  const std::size_t blocks = header_word(stream.peek(width), 0, width);
+std::string inflated(ByteStream& stream, const Head& head, std::size_t size) {
+  const std::size_t blocks = head.word(stream.peek(head.width), 0);
   if (blocks > stream.left()) stream.fail("found damaged data, expected the sizes of their blocks");
-  const std::string header = stream.take((3 + blocks) * width);
-  const std::size_t whole = header_word(header, 1, width), last = header_word(header, 2, width);
+  const std::string sizes = stream.take((3 + blocks) * head.width);
+  const std::size_t whole = head.word(sizes, 1), last = head.word(sizes, 2);
   std::size_t packed = 0;
   for (std::size_t b = 0; b < blocks; ++b) {
-    const std::size_t block = header_word(header, 3 + b, width);
+    const std::size_t block = head.word(sizes, 3 + b);
     if (block > stream.left() - packed) stream.fail("found damaged data, expected blocks that fit the file");
     packed += block;
   }
@@ -132,7 +149,7 @@ std::string inflated(ByteStream& stream, std::size_t width, std::size_t size) {
   std::string out(size, '\0');
   std::size_t from = 0, to = 0;
   for (std::size_t b = 0; b < blocks; ++b) {
-    const std::size_t taken = header_word(header, 3 + b, width);
+    const std::size_t taken = head.word(sizes, 3 + b);
     const std::size_t expected = b + 1 == blocks && last > 0 ? last : whole;
     uLongf given = size - to;
     if (expected > given ||
@@ -152,16 +169,16 @@ std::string bytes_of(Document& document, const DataArray& array, std::size_t siz
     const auto found = document.file.find(name);
     return found == document.file.end() ? "" : found->second;
   };
-  const std::size_t width = attribute("header_type") == "UInt64" ? 8 : 4;
+  const Head head{attribute("header_type") == "UInt64" ? std::size_t{8} : 4, document.big_endian};
   const std::string compressor = attribute("compressor");
   ByteStream stream(document, array);
-  if (compressor == "vtkZLibDataCompressor") return inflated(stream, width, size);
+  if (compressor == "vtkZLibDataCompressor") return inflated(stream, head, size);
   if (!compressor.empty())
     stream.fail("found the compressor " + compressor.substr(0, 40) +
-                ", expected vtkZLibDataCompressor or none");
-  if (const std::size_t found = header_word(stream.peek(width), 0, width); found != size)
+                ", expected vtkZLibDataCompressor or none: write the file again with zlib or uncompressed");
+  if (const std::size_t found = head.word(stream.peek(head.width), 0); found != size)
     stream.fail("found " + std::to_string(found) + " bytes, expected " + std::to_string(size));
-  return stream.take(width + size).substr(width);
+  return stream.take(head.width + size).substr(head.width);
 }
 
 std::vector<double> written_out(Document& document, const DataArray& array, std::size_t count) {
@@ -175,7 +192,9 @@ std::vector<double> written_out(Document& document, const DataArray& array, std:
     double number = 0;
     if (*at == '+') ++at;
     const auto [next, error] = std::from_chars(at, end, number);
-    if (error != std::errc()) document.fail(position(), "found no number, expected one");
+    const bool tiny = error == std::errc::result_out_of_range &&
+                      std::string_view(at, next).find('-', 1) != std::string_view::npos;
+    if (error != std::errc() && !tiny) document.fail(position(), "found no number, expected one");
     out.push_back(number);
     at = next;
   }
@@ -204,7 +223,9 @@ std::vector<double> values(Document& document, const DataArray& array, std::size
   if (format != "binary" && format != "appended")
     document.fail(array.position,
                   "found the format \"" + format.substr(0, 30) + "\", expected ascii, binary or appended");
-  return type->decode(bytes_of(document, array, count * type->bytes));
+  std::string bytes = bytes_of(document, array, count * type->bytes);
+  if (document.big_endian) turn_round(bytes, type->bytes);
+  return type->decode(bytes);
 }
 
 }  // namespace polyaffine::vtk_xml

@@ -1,15 +1,18 @@
 #include "polyaffine/mesh_io/vtu.hpp"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include <polyaffine/mesh_io/vtk_xml.hpp>
 
 namespace polyaffine {
 namespace {
 
+using vtk_xml::Attributes;
 using vtk_xml::DataArray;
 using vtk_xml::Document;
 
@@ -34,7 +37,17 @@ std::size_t whole(Document& document, const std::string& text, const char* what)
   return out;
 }
 
-/// The numbers in the file of the cells of each kind.
+// In words, with its number; for messages.
+std::string cell_name(int type) {
+  constexpr std::array<const char*, 15> kNames{
+      "",      "vertex",        "vertices",    "line",  "polyline",   "triangle", "strip",  "polygon",
+      "pixel", "quadrilateral", "tetrahedron", "voxel", "hexahedron", "wedge",    "pyramid"};
+  const std::string number = "VTK's cell type " + (type < 0 ? "outside 0 to 255" : std::to_string(type));
+  if (type <= 0 || type >= static_cast<int>(kNames.size())) return number;
+  return number + " (" + kNames[static_cast<std::size_t>(type)] + ")";
+}
+
+/// The numbers in the piece of the cells of each kind.
 struct CellNumbers {
   std::vector<std::size_t> tets, triangles;
 };
@@ -55,21 +68,22 @@ std::vector<int> corners(Document& document, std::span<const double> of, const s
   return out;
 }
 
-CellNumbers read_cells(Document& document, std::size_t count, MeshData& data) {
-  const auto types = values(document, document.array("Cells", "types"), count);
-  const auto ends = values(document, document.array("Cells", "offsets"), count);
+CellNumbers read_cells(Document& document, int piece, std::size_t count, MeshData& data,
+                       std::size_t& quadratic_tets) {
+  const auto types = values(document, document.array(piece, "Cells", "types"), count);
+  const auto ends = values(document, document.array(piece, "Cells", "offsets"), count);
   double begin = 0;
   for (const double end : ends) {
     if (!(end >= begin && end < std::numeric_limits<int>::max() && end == std::floor(end)))
-      document.fail(document.array("Cells", "offsets").position,
+      document.fail(document.array(piece, "Cells", "offsets").position,
                     "found an offset " + std::to_string(end) + ", expected whole numbers that grow");
     begin = end;
   }
-  const auto points =
-      values(document, document.array("Cells", "connectivity"), static_cast<std::size_t>(ends.back()));
+  const auto points = values(document, document.array(piece, "Cells", "connectivity"),
+                             static_cast<std::size_t>(ends.empty() ? 0 : ends.back()));
   CellNumbers numbers;
   CellList tets{4}, triangles{3};
-  std::size_t quadratic_tets = 0, from = 0;
+  std::size_t from = 0;
   for (std::size_t c = 0; c < count; ++c) {
     const int type = types[c] >= 0 && types[c] < 256 ? static_cast<int>(types[c]) : -1;  // a byte in VTK
     const auto to = static_cast<std::size_t>(ends[c]);
@@ -81,8 +95,7 @@ CellNumbers read_cells(Document& document, std::size_t count, MeshData& data) {
     const auto cell = "cell " + std::to_string(c) + " (counted from 0): ";
     const bool tet = type == kTet || type == kQuadraticTet;
     if (!tet && type != kTriangle && type != kQuadraticTriangle)
-      document.fail(0, cell + "found VTK's cell type " +
-                           (type < 0 ? "outside 0 to 255" : std::to_string(type)) +
+      document.fail(0, cell + "found " + cell_name(type) +
                            ", expected 10 (tetrahedron) or 5 (triangle), or 24 or 22 (quadratic)");
     (tet ? tets : triangles).add(corners(document, of, cell, tet ? 4 : 3, data.points.cols()));
     (tet ? numbers.tets : numbers.triangles).push_back(c);
@@ -90,7 +103,6 @@ CellNumbers read_cells(Document& document, std::size_t count, MeshData& data) {
   }
   data.tets = tets.matrix();
   data.triangles = triangles.matrix();
-  note_quadratic(data, quadratic_tets);
   return numbers;
 }
 
@@ -109,30 +121,75 @@ Matrix chosen(const Matrix& of, const std::vector<std::size_t>& columns) {
   return out;
 }
 
-}  // namespace
-
-MeshData read_vtu_data(const std::filesystem::path& file) {
-  Document document(file);
-  const std::size_t points = whole(document, document.piece["NumberOfPoints"], "NumberOfPoints");
-  const std::size_t cells = whole(document, document.piece["NumberOfCells"], "NumberOfCells");
-  if (points == 0 || cells == 0)
-    document.fail(0, "found no points or no cells, expected a mesh (unstructured grid)");
+MeshData read_piece(Document& document, int piece, std::size_t& quadratic_tets) {
+  const Attributes& of = document.pieces[static_cast<std::size_t>(piece)];
+  const auto count = [&](const char* name) {
+    const auto found = of.find(name);
+    return whole(document, found == of.end() ? "" : found->second, name);
+  };
+  const std::size_t points = count("NumberOfPoints"), cells = count("NumberOfCells");
   MeshData data;
-  data.source = file;
-  const DataArray& coordinates = document.array("Points", "");
+  if (points == 0) return data;
+  const DataArray& coordinates = document.array(piece, "Points", "");
   if (coordinates.attribute("NumberOfComponents") != "3")
     document.fail(coordinates.position, "found points without three coordinates");
   data.points = table(document, coordinates, points);
-  const CellNumbers numbers = read_cells(document, cells, data);
+  const CellNumbers numbers = read_cells(document, piece, cells, data, quadratic_tets);
   for (const DataArray& array : document.arrays) {
     const std::string name = array.attribute("Name");
-    if (name.empty() || !has_numbers(array)) continue;
+    if (array.piece != piece || name.empty() || !has_numbers(array)) continue;
     if (array.section == "PointData") data.point_fields[name] = table(document, array, points);
     if (array.section != "CellData") continue;
     const Matrix all = table(document, array, cells);
     data.tet_fields[name] = chosen(all, numbers.tets);
     data.triangle_fields[name] = chosen(all, numbers.triangles);
   }
+  return data;
+}
+
+template <class Columns>
+void append_columns(const Columns& more, Columns& to) {
+  const Eigen::Index before = to.cols();
+  to.conservativeResize(more.rows(), before + more.cols());
+  to.rightCols(more.cols()) = more;
+}
+
+// Puts a piece behind the former ones; all have the same fields.
+void append_piece(Document& document, const MeshData& piece, MeshData& data) {
+  const auto before = static_cast<int>(data.points.cols());
+  append_columns(piece.points, data.points);
+  append_columns(Tets(piece.tets.array() + before), data.tets);
+  append_columns(Triangles(piece.triangles.array() + before), data.triangles);
+  for (auto fields : {&MeshData::point_fields, &MeshData::tet_fields, &MeshData::triangle_fields}) {
+    if ((data.*fields).size() != (piece.*fields).size())
+      document.fail(0, "found pieces with different arrays, expected the same in all");
+    for (auto& [name, values] : data.*fields) {
+      const auto more = (piece.*fields).find(name);
+      if (more == (piece.*fields).end() || more->second.rows() != values.rows())
+        document.fail(0, "found pieces with different arrays \"" + name + "\", expected the same in all");
+      append_columns(more->second, values);
+    }
+  }
+}
+
+}  // namespace
+
+MeshData read_vtu_data(const std::filesystem::path& file) {
+  Document document(file);
+  MeshData data;
+  std::size_t quadratic_tets = 0;
+  for (std::size_t p = 0; p < document.pieces.size(); ++p) {
+    MeshData piece = read_piece(document, static_cast<int>(p), quadratic_tets);
+    if (piece.points.cols() == 0) continue;  // of a processor that had nothing to write
+    if (data.points.cols() == 0)
+      data = std::move(piece);
+    else
+      append_piece(document, piece, data);
+  }
+  data.source = file;
+  if (data.points.cols() == 0 || data.tets.cols() + data.triangles.cols() == 0)
+    document.fail(0, "found no points or no cells, expected a mesh (unstructured grid)");
+  note_quadratic(data, quadratic_tets);
   return data;
 }
 

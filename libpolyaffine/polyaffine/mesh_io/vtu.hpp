@@ -4,11 +4,11 @@
 
 namespace polyaffine {
 
-/// Reads a VTK XML unstructured grid (.vtu) without VTK: tetrahedra and triangles, linear or quadratic, and
-/// all numeric point and cell arrays; as text, base64 or raw bytes, plain or compressed by zlib, in one piece
-/// and little-endian. Vertices and lines are passed over. The same as read_vtk_data gives of such a file.
-/// Throws InputError, naming file and mostly line, when it is missing, damaged, or holds what it does not
-/// read.
+/// Reads a VTK XML unstructured grid (.vtu): tetrahedra and triangles, linear or quadratic, and all numeric
+/// point and cell arrays; as text, base64 or raw bytes, plain or compressed by zlib, in either byte order and
+/// any number of pieces, which follow each other. Vertices and lines are passed over. Throws InputError,
+/// naming file and mostly line, when it is missing, damaged, or holds what is not read (other cells,
+/// compression by lz4 or lzma).
 MeshData read_vtu_data(const std::filesystem::path& file);
 
 }  // namespace polyaffine

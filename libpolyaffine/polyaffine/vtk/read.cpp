@@ -1,6 +1,8 @@
 #include "polyaffine/vtk/read.hpp"
 
 #include <polyaffine/core/error.hpp>
+#include <polyaffine/mesh_io/file_extension.hpp>
+#include <polyaffine/mesh_io/vtu.hpp>
 #include <polyaffine/vtk/read_data.hpp>
 
 namespace polyaffine {
@@ -9,6 +11,7 @@ using std::filesystem::path;
 
 MeshFile read_mesh_file(const path& file, double mm_per_unit, const ReadOptions& options) {
   const auto checked = [](const path& name, const char* expected) {
+    if (lower_extension(name) == ".vtu") return read_vtu_data(name);
     if (!is_vtk_file(name))
       throw InputError(name.string() + ": found the extension \"" + name.extension().string() +
                        "\", expected " + expected);

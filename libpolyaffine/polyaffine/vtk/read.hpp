@@ -14,9 +14,9 @@ struct ReadOptions {
   bool fields = false;
 };
 
-/// Reads a VTK file of tetrahedra (read_vtk_data) and the labels of its surface and makes it a valid mesh
-/// (assemble). Coordinates are multiplied by mm_per_unit (1 for mm, 10 for cm, 1000 for m). Throws InputError
-/// as these, and when triangles that were asked for have no labels.
+/// Reads a VTK file of tetrahedra (read_vtu_data, read_vtk_data) and the labels of its surface and makes it a
+/// valid mesh (assemble). Coordinates are multiplied by mm_per_unit (1 for mm, 10 for cm, 1000 for m). Throws
+/// InputError as these, and when triangles that were asked for have no labels.
 MeshFile read_mesh_file(const std::filesystem::path& path, double mm_per_unit,
                         const ReadOptions& options = {});
 

@@ -12,9 +12,7 @@
 #include <vtkPointSet.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
-#include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataReader.h>
-#include <vtkXMLUnstructuredGridReader.h>
 
 #include <algorithm>
 #include <array>
@@ -101,9 +99,8 @@ vtkSmartPointer<vtkPointSet> load_as(const path& file, const char* format) {
 vtkSmartPointer<vtkPointSet> load(const path& file) {
   if (!std::filesystem::is_regular_file(file)) fail(file, "found no such file");
   const std::string extension = lower_extension(file);
-  const auto data = extension == ".vtu"   ? load_as<vtkXMLUnstructuredGridReader>(file, "VTK XML file")
-                    : extension == ".vtp" ? load_as<vtkXMLPolyDataReader>(file, "VTK XML file")
-                                          : load_as<vtkDataSetReader>(file, "legacy VTK file");
+  const auto data = extension == ".vtp" ? load_as<vtkXMLPolyDataReader>(file, "VTK XML file")
+                                        : load_as<vtkDataSetReader>(file, "legacy VTK file");
   if (!data || data->GetNumberOfPoints() == 0 || data->GetNumberOfCells() == 0)
     fail(file, "found no points or no cells, expected a mesh (unstructured grid or polydata)");
   return data;
@@ -182,7 +179,7 @@ MeshData read(const path& file) {
 
 bool is_vtk_file(const path& file) {
   const std::string extension = lower_extension(file);
-  return extension == ".vtu" || extension == ".vtk" || extension == ".vtp";
+  return extension == ".vtk" || extension == ".vtp";
 }
 
 MeshData read_vtk_data(const path& file) {

@@ -68,13 +68,19 @@ const std::string kBeat =
     "= 10\n[contraction]\ncontractility_kPa = 2000\ncross_fibre_fraction = 0.4\n[circulation]\n[time]\n"
     "max_beats = 1\n";
 
+/// Runs kBeat with settings (--set).
+auto run_beat(const TemporaryFolder& folder, const fs::path& out, const std::vector<std::string>& settings) {
+  std::string command = "run " + land(folder, kBeat) + " --out " + out.string();
+  for (const std::string& setting : settings) command += " --set " + setting;
+  return run_program(command);
+}
+
 TEST(FailedRun, TolerancesBelowTheRoundingOfTheArithmetic) {
   const TemporaryFolder folder;
   const fs::path out = folder.path / "out";
-  const auto run = run_program("run " + land(folder, kBeat) +
-                               " --set time.relative_tolerance=1e-10 --set time.absolute_tolerance_mm=1e-10 "
-                               "--set time.absolute_tolerance_mmHg=1e-10 --out " +
-                               out.string());
+  const auto run = run_beat(folder, out,
+                            {"time.relative_tolerance=1e-10", "time.absolute_tolerance_mm=1e-10",
+                             "time.absolute_tolerance_mmHg=1e-10"});
   const auto summary = check_failed(run, out);
   EXPECT_THAT(std::string(summary.at("stop_reason")), HasSubstr("(beat 1)"));
   EXPECT_LT(summary.at("simulated_time_s"), 0.8) << "the beat did not end";
@@ -84,14 +90,12 @@ TEST(FailedRun, TolerancesBelowTheRoundingOfTheArithmetic) {
 TEST(FailedRun, CrushedWallIsWarnedOf) {
   const TemporaryFolder folder;
   const fs::path out = folder.path / "out";
-  const auto run = run_program("run " + land(folder, kBeat) +
-                               " --set contraction.contractility_kPa=400 --out " + out.string());
+  const auto run = run_beat(folder, out, {"contraction.contractility_kPa=400"});
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.err, HasSubstr("cardiac: warning: the wall was compressed to "));
   EXPECT_THAT(whole_file(out / "summary.json"), HasSubstr("the wall was compressed to "));
   // Below a tenth of its volume it is no result.
-  const auto crushed = run_program("run " + land(folder, kBeat) +
-                                   " --set contraction.contractility_kPa=1000 --out " + out.string());
+  const auto crushed = run_beat(folder, out, {"contraction.contractility_kPa=1000"});
   EXPECT_THAT(std::string(check_failed(crushed, out).at("stop_reason")),
               HasSubstr("absurd result: the wall"));
   EXPECT_THAT(crushed.err, HasSubstr("cardiac: warning: the wall was compressed to "));
@@ -100,10 +104,9 @@ TEST(FailedRun, CrushedWallIsWarnedOf) {
 TEST(FailedRun, FillingThatDoesNotSucceed) {
   const TemporaryFolder folder;
   const fs::path out = folder.path / "out";
-  const auto run = run_program("run " + land(folder, kBeat) +
-                               " --set circulation.filling_pressure_mmHg=100 --set tissue.C_kPa=0.001 --set "
-                               "tissue.bulk_modulus_kPa=1 --set reduction.local_bulk_modulus_kPa=0.5 --out " +
-                               out.string());
+  const auto run = run_beat(folder, out,
+                            {"circulation.filling_pressure_mmHg=100", "tissue.C_kPa=0.001",
+                             "tissue.bulk_modulus_kPa=1", "reduction.local_bulk_modulus_kPa=0.5"});
   const auto summary = check_failed(run, out);
   EXPECT_THAT(std::string(summary.at("stop_reason")), HasSubstr("of 100"));
   EXPECT_EQ(summary.at("simulated_time_s"), 0);

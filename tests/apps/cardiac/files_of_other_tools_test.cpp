@@ -230,7 +230,7 @@ std::vector<OtherFile> tetrahedra() {
        },
        "",
        2,
-       {"vtkHexahedron"}},
+       {"hexahedron"}},
   };
 }
 

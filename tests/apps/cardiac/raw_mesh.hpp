@@ -11,6 +11,13 @@
 #include <vector>
 
 #include <polyaffine/mesh/tet_mesh.hpp>
+#include <polyaffine/vtk/read.hpp>
+
+/// The coarse mesh of Land's ellipsoid.
+inline const polyaffine::TetMesh& land_mesh() {
+  static const auto mesh = polyaffine::read_vtu(PROJECT_DIR "/meshes/land_ellipsoid_coarse.vtu", 1);
+  return mesh;
+}
 
 /// A mesh as a file holds it, valid or not.
 struct RawMesh {

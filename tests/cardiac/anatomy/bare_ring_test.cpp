@@ -8,6 +8,7 @@
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/vtk/read.hpp>
 
+#include "support/error_of.hpp"
 #include "support/mesh_writers.hpp"
 #include "support/odd_walls.hpp"
 #include "support/shuffled.hpp"
@@ -16,18 +17,9 @@ namespace cardiac {
 namespace {
 
 using polyaffine::TetMesh;
+using polyaffine::testing::error_of;
 using testing::AllOf;
 using testing::HasSubstr;
-
-template <class Action>
-std::string refusal(const Action& action) {
-  try {
-    action();
-  } catch (const polyaffine::InputError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 // The ring lies on the middle ellipsoid (semi-axes 25 and 68.5 mm) at z = 17 mm: a circle of radius
 // 25 √(1 − (17/68.5)²) = 24.22 mm, as 24 chords 151.7 mm long.
@@ -37,16 +29,16 @@ const auto kRing = AllOf(HasSubstr("meet in an edge without a base"), HasSubstr(
 TEST(BareRing, OfLabelledSurfacesIsToldWithItsPlace) {
   const TetMesh mesh = odd_walls::tapered_to_ring(20);
   const auto check = [&] { check_bare_rings(mesh.points(), mesh.boundary(), mesh.boundary_labels()); };
-  EXPECT_THAT(refusal(check), kRing);
-  EXPECT_THAT(refusal(check), HasSubstr("about (0, 0, 17) mm, through ("));
+  EXPECT_THAT(error_of(check), kRing);
+  EXPECT_THAT(error_of(check), HasSubstr("about (0, 0, 17) mm, through ("));
   const auto heart = [&] { make_heart_mesh(testing_io::data_of(mesh), nullptr, {}); };
-  EXPECT_THAT(refusal(heart), kRing) << "no label says base";
+  EXPECT_THAT(error_of(heart), kRing) << "no label says base";
   const auto rest = [&] {
     HeartMeshOptions options;
     options.labels.rest_is_base = true;
     make_heart_mesh(testing_io::data_of(mesh), nullptr, options);
   };
-  EXPECT_THAT(refusal(rest), kRing) << "there is no rest to be the base";
+  EXPECT_THAT(error_of(rest), kRing) << "there is no rest to be the base";
 }
 
 TEST(BareRing, OfPartOfTheRimIsToldToo) {
@@ -57,18 +49,18 @@ TEST(BareRing, OfPartOfTheRimIsToldToo) {
     if (labels[f] == kEpicardium && middle.z() > 10 && middle.x() > 0) labels[f] = kBase;
   }
   const auto check = [&] { check_heart_surfaces(mesh.points(), mesh.boundary(), labels); };
-  EXPECT_THAT(refusal(check), HasSubstr("found an edge "));
+  EXPECT_THAT(error_of(check), HasSubstr("found an edge "));
 }
 
 TEST(BareRing, IsRecognisedFromTheShape) {
   for (const double taper_mm : {10.0, 20.0, 40.0}) {
     const TetMesh mesh = odd_walls::tapered_to_ring(taper_mm);
     const auto check = [](const TetMesh& m) {
-      return refusal([&] { check_tapered_rims(m.points(), m.boundary()); });
+      return error_of([&] { check_tapered_rims(m.points(), m.boundary()); });
     };
     EXPECT_THAT(check(mesh), kRing) << taper_mm;
     EXPECT_THAT(check(shuffled(mesh, a_rotation(), {300, -20, 5})), kRing) << taper_mm;
-    EXPECT_THAT(refusal([&] { recognise_surfaces(mesh); }), kRing) << taper_mm;
+    EXPECT_THAT(error_of([&] { recognise_surfaces(mesh); }), kRing) << taper_mm;
   }
 }
 
@@ -77,7 +69,7 @@ TEST(BareRing, IsRecognisedFromTheShape) {
 TEST(BareRing, IsRecognisedWhereTheOutsideFacesTheOpening) {
   for (const double taper_mm : {10.0, 20.0, 40.0}) {
     const TetMesh mesh = odd_walls::tapered_to_ring(taper_mm, odd_walls::kDome);
-    EXPECT_THAT(refusal([&] { recognise_surfaces(mesh); }),
+    EXPECT_THAT(error_of([&] { recognise_surfaces(mesh); }),
                 HasSubstr("a ring 121.2 mm long about (0, 0, 30)"))
         << taper_mm;
   }

@@ -5,6 +5,8 @@
 #include <cardiac/anatomy/surface_names.hpp>
 #include <polyaffine/core/error.hpp>
 
+#include "support/error_of.hpp"
+
 namespace cardiac {
 namespace {
 
@@ -42,12 +44,7 @@ TEST(SurfaceNames, NumbersNamesAndWhatTheUserSays) {
 
 std::string refusal(const std::set<int>& numbers, const std::map<int, std::string>& names,
                     const SurfaceLabelMap& map) {
-  try {
-    heart_labels(numbers, names, map);
-  } catch (const polyaffine::InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return polyaffine::testing::error_of([&] { heart_labels(numbers, names, map); });
 }
 
 TEST(SurfaceNames, RefusalsListWhatTheFileHas) {

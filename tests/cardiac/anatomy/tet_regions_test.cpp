@@ -4,6 +4,8 @@
 #include <cardiac/anatomy/tet_regions.hpp>
 #include <polyaffine/core/error.hpp>
 
+#include "support/error_of.hpp"
+
 namespace cardiac {
 namespace {
 
@@ -45,12 +47,7 @@ TEST(TetRegions, AreTold) {
 }
 
 std::string refusal(const RegionChoice& choice, polyaffine::MeshData mesh = data()) {
-  try {
-    keep_regions(mesh, choice);
-  } catch (const polyaffine::InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return polyaffine::testing::error_of([&] { keep_regions(mesh, choice); });
 }
 
 TEST(TetRegions, RefusalsListWhatTheFileHas) {

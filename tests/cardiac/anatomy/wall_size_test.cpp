@@ -4,6 +4,8 @@
 #include <cardiac/anatomy/wall_size.hpp>
 #include <polyaffine/core/error.hpp>
 
+#include "support/error_of.hpp"
+
 namespace cardiac {
 namespace {
 
@@ -12,12 +14,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 std::string refusal(double volume_mm3, double mm_per_unit) {
-  try {
-    check_wall_size(volume_mm3, mm_per_unit, {});
-  } catch (const polyaffine::InputError& error) {
-    return error.what();
-  }
-  return "";
+  return polyaffine::testing::error_of([&] { check_wall_size(volume_mm3, mm_per_unit, {}); });
 }
 
 // Left ventricles in mm³: of mice 80 to 110 mg, of a rat 0.28 mL (a mesh in use), of people 70 to 200 mL, of

@@ -2,28 +2,19 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <functional>
 #include <limits>
 
 #include <cardiac/report/csv_reader.hpp>
 #include <cardiac/report/result_reader.hpp>
 #include <cardiac/report/tables.hpp>
-#include <polyaffine/core/error.hpp>
 #include "cardiac/report/synthetic_result.hpp"
+#include "support/error_of.hpp"
 
 namespace cardiac {
 namespace {
 
+using polyaffine::testing::error_of;
 using ::testing::HasSubstr;
-
-std::string message_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const polyaffine::InputError& error) {
-    return error.what();
-  }
-  return "no InputError";
-}
 
 class ResultReader : public ::testing::Test {
  protected:
@@ -37,7 +28,7 @@ class ResultReader : public ::testing::Test {
     const size_t place = text.find(from);
     EXPECT_NE(place, std::string::npos) << from;
     std::ofstream(folder() / file, std::ios::binary) << text.replace(place, from.size(), to);
-    return message_of([&] { read_result(folder()); });
+    return error_of([&] { read_result(folder()); });
   }
 
  private:
@@ -103,71 +94,54 @@ TEST_F(ResultReader, ReadsFullOrderRunsWithoutFrames) {
 }
 
 TEST_F(ResultReader, NamesWhatIsMissing) {
-  EXPECT_THAT(message_of([&] { read_result(folder() / "none"); }), HasSubstr("none: no such folder"));
-  EXPECT_THAT(message_of([&] { read_result(folder() / "strain.csv"); }), HasSubstr("is not a folder"));
+  EXPECT_THAT(error_of([&] { read_result(folder() / "none"); }), HasSubstr("none: no such folder"));
+  EXPECT_THAT(error_of([&] { read_result(folder() / "strain.csv"); }), HasSubstr("is not a folder"));
   std::filesystem::remove(folder() / "affine.csv");
-  EXPECT_THAT(message_of([&] { read_result(folder()); }), HasSubstr("affine.csv: no such file"));
+  EXPECT_THAT(error_of([&] { read_result(folder()); }), HasSubstr("affine.csv: no such file"));
 }
 
-TEST_F(ResultReader, NamesLineAndColumnOfABadTable) {
-  EXPECT_THAT(message_after("strain.csv", "\n10,3,", "\n10,three,"),
-              HasSubstr("strain.csv:21, column 'segment': found 'three', expected an integer"));
+/// A change in a file of the result, and what the message must say.
+struct Fault {
+  const char* name;
+  const char* file;
+  const char *from, *to;
+  const char* message;
+};
+
+class FaultyResult : public ResultReader, public ::testing::WithParamInterface<Fault> {};
+
+TEST_P(FaultyResult, IsRefusedWithItsPlace) {
+  const Fault& fault = GetParam();
+  EXPECT_THAT(message_after(fault.file, fault.from, fault.to), HasSubstr(fault.message));
 }
 
-TEST_F(ResultReader, NamesABadNumber) {
-  EXPECT_THAT(message_after("cavity.csv", "\n5,lv,121.4,", "\n5,lv,1x,"),
-              HasSubstr("cavity.csv:3, column 'volume_mL': found '1x', expected a number"));
-}
-
-TEST_F(ResultReader, NamesABadPhase) {
-  EXPECT_THAT(message_after("cavity.csv", "ejection", "ejecting"),
-              HasSubstr("column 'phase': found 'ejecting', expected filling,"));
-}
-
-TEST_F(ResultReader, NamesAnUnknownVentricle) {
-  EXPECT_THAT(message_after("cavity.csv", "\n0,lv,", "\n0,la,"), HasSubstr("column 'ventricle': found 'la'"));
-}
-
-TEST_F(ResultReader, NamesAMissingColumn) {
-  EXPECT_THAT(message_after("affine.csv", "a_22", "b_22"), HasSubstr("affine.csv:1: the column 'a_22'"));
-}
-
-TEST_F(ResultReader, NamesARowThatIsTooShort) {
-  EXPECT_THAT(message_after("strain.csv", "\n0,2,basal anteroseptal,0", "\n0,2,basal anteroseptal"),
-              HasSubstr("strain.csv:3: found 9 fields, expected 10"));
-}
-
-TEST_F(ResultReader, NamesAMissingSegment) {
-  EXPECT_THAT(message_after("strain.csv", "0,2,basal anteroseptal,0,0,0,0,0,0,1\n", ""),
-              HasSubstr("strain.csv:3, column 'segment': found '3', expected segment 2"));
-}
-
-TEST_F(ResultReader, NamesTablesThatDoNotBelongTogether) {
-  EXPECT_THAT(message_after("affine.csv", "\n0,1,basal anterior", "\n1,1,basal anterior"),
-              HasSubstr("affine.csv:2, column 'time_ms': found '1', expected a time that strain.csv has"));
-}
-
-TEST_F(ResultReader, NamesABadGlobalStrain) {
-  EXPECT_THAT(
-      message_after("global_strain.csv", "\n10,lv,", "\n11,lv,"),
-      HasSubstr("global_strain.csv:3, column 'time_ms': found '11', expected a time that strain.csv"));
-  EXPECT_THAT(message_after("global_strain.csv", "\n0,lv,", "\n0,rv,"),
-              HasSubstr("global_strain.csv:2, column 'ventricle': found 'rv', expected the ventricles"));
-}
-
-TEST_F(ResultReader, NamesKeysOfABadSummary) {
-  EXPECT_THAT(message_after("summary.json", "\"gls_percent\": -18.42", "\"gls_percent\": \"x\""),
-              HasSubstr("summary.json: 'strain.gls_percent' is string, expected a number or null"));
-}
-
-TEST_F(ResultReader, NamesMissingKeysOfASummary) {
-  EXPECT_THAT(message_after("summary.json", "\"tets\"", "\"tet\""),
-              HasSubstr("summary.json: the key 'mesh.tets' is missing"));
-}
-
-TEST_F(ResultReader, RejectsWhatIsNotJson) {
-  EXPECT_THAT(message_after("summary.json", "{", "["), HasSubstr("summary.json: not valid JSON"));
-}
+INSTANTIATE_TEST_SUITE_P(
+    Faults, FaultyResult,
+    ::testing::Values(
+        Fault{"bad_integer", "strain.csv", "\n10,3,", "\n10,three,",
+              "strain.csv:21, column 'segment': found 'three', expected an integer"},
+        Fault{"bad_number", "cavity.csv", "\n5,lv,121.4,", "\n5,lv,1x,",
+              "cavity.csv:3, column 'volume_mL': found '1x', expected a number"},
+        Fault{"bad_phase", "cavity.csv", "ejection", "ejecting",
+              "column 'phase': found 'ejecting', expected filling,"},
+        Fault{"unknown_ventricle", "cavity.csv", "\n0,lv,", "\n0,la,", "column 'ventricle': found 'la'"},
+        Fault{"missing_column", "affine.csv", "a_22", "b_22", "affine.csv:1: the column 'a_22'"},
+        Fault{"row_too_short", "strain.csv", "\n0,2,basal anteroseptal,0", "\n0,2,basal anteroseptal",
+              "strain.csv:3: found 9 fields, expected 10"},
+        Fault{"missing_segment", "strain.csv", "0,2,basal anteroseptal,0,0,0,0,0,0,1\n", "",
+              "strain.csv:3, column 'segment': found '3', expected segment 2"},
+        Fault{"tables_apart", "affine.csv", "\n0,1,basal anterior", "\n1,1,basal anterior",
+              "affine.csv:2, column 'time_ms': found '1', expected a time that strain.csv has"},
+        Fault{"global_strain_apart", "global_strain.csv", "\n10,lv,", "\n11,lv,",
+              "global_strain.csv:3, column 'time_ms': found '11', expected a time that strain.csv"},
+        Fault{"global_strain_of_another", "global_strain.csv", "\n0,lv,", "\n0,rv,",
+              "global_strain.csv:2, column 'ventricle': found 'rv', expected the ventricles"},
+        Fault{"bad_summary", "summary.json", "\"gls_percent\": -18.42", "\"gls_percent\": \"x\"",
+              "summary.json: 'strain.gls_percent' is string, expected a number or null"},
+        Fault{"missing_key", "summary.json", "\"tets\"", "\"tet\"",
+              "summary.json: the key 'mesh.tets' is missing"},
+        Fault{"no_json", "summary.json", "{", "[", "summary.json: not valid JSON"}),
+    [](const auto& fault) { return std::string(fault.param.name); });
 
 }  // namespace
 }  // namespace cardiac

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <random>
 #include <string>
 
+#include <cardiac/anatomy/segments.hpp>
 #include <cardiac/report/run_info.hpp>
 
 namespace cardiac::test {
@@ -16,23 +16,6 @@ namespace cardiac::test {
 /// stretch instead when `infarct` is set.
 inline BeatResult synthetic_beat(bool infarct = false) {
   constexpr double kBeat = 800, kEs = 330;
-  const std::array<const char*, 17> names{"basal anterior",
-                                          "basal anteroseptal",
-                                          "basal inferoseptal",
-                                          "basal inferior",
-                                          "basal inferolateral",
-                                          "basal anterolateral",
-                                          "mid anterior",
-                                          "mid anteroseptal",
-                                          "mid inferoseptal",
-                                          "mid inferior",
-                                          "mid inferolateral",
-                                          "mid anterolateral",
-                                          "apical anterior",
-                                          "apical septal",
-                                          "apical inferior",
-                                          "apical lateral",
-                                          "apex"};
   BeatResult r;
   r.method = "polyaffine";
   r.has_beat = r.completed = true;
@@ -51,7 +34,7 @@ inline BeatResult synthetic_beat(bool infarct = false) {
   r.strain = {-18.42, -21.3, 41.7, 12.6, {-21.1, -18.6, -15.2}, {-30.3, -21.9, -12.4}, 38.5, 14.1};
   r.nodes.resize(17);
   for (int i = 0; i < 17; ++i)
-    r.segments.push_back({i + 1, names[i], 5 + 0.37 * (i % 7), 18.0 + 2.3 * (i % 9)});
+    r.segments.push_back({i + 1, aha_name(i + 1), 5 + 0.37 * (i % 7), 18.0 + 2.3 * (i % 9)});
   for (double t = 0; t <= kBeat; t += 10) {
     Instant& instant = r.instants.emplace_back();
     instant.time_ms = t;

@@ -9,11 +9,13 @@
 #include <random>
 
 #include "polyaffine/mesh/unit_cube.hpp"
+#include "support/error_of.hpp"
 
 namespace polyaffine {
 namespace {
 
 using ::testing::AllOf;
+using testing::error_of;
 using ::testing::HasSubstr;
 
 struct Shell {
@@ -49,15 +51,6 @@ Shell cup(double a, double c, double top, int rings, int sectors) {
 /// Volume of the ellipsoid below z = top.
 double cup_volume(double a, double c, double top) {
   return kPi * a * a * (2 * c / 3 + top - top * top * top / (3 * c * c));
-}
-
-std::string error_of(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 TEST(Surface, AreasOfTheCube) {

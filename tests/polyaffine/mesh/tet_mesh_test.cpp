@@ -8,23 +8,16 @@
 #include <polyaffine/mesh/tet_mesh.hpp>
 
 #include "polyaffine/mesh/unit_cube.hpp"
+#include "support/error_of.hpp"
 
 namespace polyaffine {
 namespace {
 
 using ::testing::AllOf;
 using testing::cube_labels;
+using testing::error_of;
 using ::testing::HasSubstr;
 using testing::unit_cube;
-
-std::string error_of(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 TEST(TetMesh, CubeHasItsVolumeBoundaryAndLabels) {
   const auto cube = unit_cube();

@@ -8,6 +8,7 @@
 #include <polyaffine/mesh/tet_faces.hpp>
 #include <polyaffine/mesh_io/assemble.hpp>
 
+#include "support/error_of.hpp"
 #include "support/labelled_box.hpp"
 #include "support/mesh_writers.hpp"
 
@@ -32,12 +33,7 @@ MeshFile made(const MeshData& data, double mm_per_unit = 1) {
 std::string refusal(const std::function<void(MeshData&)>& damage) {
   MeshData data = box();
   damage(data);
-  try {
-    made(data);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return testing::error_of([&] { made(data); });
 }
 
 TEST(Assemble, AValidMeshComesThroughAsItIs) {

@@ -7,6 +7,7 @@
 #include <polyaffine/mesh/surface.hpp>
 #include <polyaffine/mesh_io/closed_surface.hpp>
 
+#include "support/error_of.hpp"
 #include "support/labelled_box.hpp"
 #include "support/mesh_writers.hpp"
 
@@ -31,12 +32,7 @@ std::string refusal(const std::function<void(MeshData&)>& damage) {
   MeshData data = surface();
   data.triangle_fields.clear();  // of as many triangles as there were
   damage(data);
-  try {
-    make_closed_surface(data);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return testing::error_of([&] { make_closed_surface(data); });
 }
 
 /// Volume inside, positive when the triangles look outwards.

@@ -8,6 +8,7 @@
 #include <polyaffine/mesh_io/read.hpp>
 #include <set>
 
+#include "support/error_of.hpp"
 #include "support/labelled_box.hpp"
 #include "support/mesh_writers.hpp"
 #include "support/temporary_folder.hpp"
@@ -18,6 +19,7 @@ namespace {
 
 using std::filesystem::path;
 using ::testing::AllOf;
+using testing::error_of;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
@@ -29,15 +31,6 @@ MeshData box() {
   out.tet_fields["fibre"] = Matrix::Random(3, out.tets.cols());
   out.surface_names = {{1, "ENDO"}, {2, "epi wall"}};
   return out;
-}
-
-std::string error_of(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 /// Cells with their data, in an order that does not depend on the file's.

@@ -191,7 +191,7 @@ TEST_F(Vtu, ErrorsNameTheFileAndTheFault) {
   EXPECT_THAT(read_error(in("none.vtu")), AllOf(HasSubstr("none.vtu"), HasSubstr("no such file")));
   EXPECT_THAT(read_error(in("cube.stl")), AllOf(HasSubstr("\".stl\""), HasSubstr("expected .vtu")));
   EXPECT_THAT(read_error(write_text("garbage.vtu", "this is no mesh")),
-              AllOf(HasSubstr("garbage.vtu"), HasSubstr("damaged")));
+              AllOf(HasSubstr("garbage.vtu"), HasSubstr("end of the file")));
   EXPECT_THAT(read_error(write_text("empty.vtu", "")), HasSubstr("empty.vtu"));
   EXPECT_THAT(read_error(write_text("other.vtu", "<?xml version=\"1.0\"?><html></html>")),
               HasSubstr("other.vtu"));
@@ -212,7 +212,7 @@ TEST_F(Vtu, OtherCellsAreNamed) {
   const auto file =
       ascii("mixed.vtu", "1 1 0 0 1 1 1 1 1 1 0 1", "0 1 2 3 0 1 4 2 3 7 6 5", "4 12", "10 12", "");
   EXPECT_THAT(read_error(file),
-              AllOf(HasSubstr("vtkHexahedron"), HasSubstr("cell 1"), HasSubstr("vtkTetra")));
+              AllOf(HasSubstr("hexahedron"), HasSubstr("cell 1"), HasSubstr("tetrahedron")));
 }
 
 TEST_F(Vtu, LabelArrayFaults) {
