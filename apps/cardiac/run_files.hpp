@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <vector>
 
+#include <cardiac/protocol/protocol.hpp>
 #include <cardiac/run/result.hpp>
 
 namespace cardiac::app {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cardiac/protocol/protocol.hpp>
 #include <cardiac/report/figures.hpp>
 #include <cardiac/run/result.hpp>
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cardiac/model/coupled_heart.hpp>
+#include <cardiac/protocol/protocol.hpp>
 
 namespace cardiac::testing {
 

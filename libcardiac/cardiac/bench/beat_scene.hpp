@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <cardiac/bench/bench.hpp>
+#include <cardiac/protocol/protocol.hpp>
 
 namespace cardiac {
 

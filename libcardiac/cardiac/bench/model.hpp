@@ -7,6 +7,7 @@
 #include <cardiac/anatomy/structured_ellipsoid.hpp>
 #include <cardiac/bench/scene.hpp>
 #include <cardiac/model/ventricle.hpp>
+#include <cardiac/protocol/protocol.hpp>
 #include <polyaffine/kinematics/lagrange.hpp>
 
 namespace cardiac {

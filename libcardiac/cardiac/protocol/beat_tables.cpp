@@ -167,19 +167,19 @@ void add_right_circulation(TableBuilder<std::optional<Circulation>>& table) {
                    .range = above_zero(200),
                    .meaning = "compliance of the pulmonary arteries",
                    .source = std::string(kHealthy) + "; Regazzoni 2022: 20"}),
-           {kPa_per_mmHg})
+           {compliance_per_mL_per_mmHg})
       .key("pulmonary_venous_compliance_mL_per_mmHg", &Circulation::pulmonary_venous_compliance_mm3_per_kPa,
            of_two({.unit = "mL/mmHg",
                    .range = above_zero(500),
                    .meaning = "compliance of the pulmonary veins and the left atrium",
                    .source = "Regazzoni 2022: 16"}),
-           {kPa_per_mmHg})
+           {compliance_per_mL_per_mmHg})
       .key("systemic_venous_compliance_mL_per_mmHg", &Circulation::systemic_venous_compliance_mm3_per_kPa,
            of_two({.unit = "mL/mmHg",
                    .range = above_zero(500),
                    .meaning = "compliance of the systemic veins and the right atrium",
                    .source = std::string(kHealthy) + "; Regazzoni 2022: 11.4"}),
-           {kPa_per_mmHg})
+           {compliance_per_mL_per_mmHg})
       .key("initial_pulmonary_pressure_mmHg", &Circulation::initial_pulmonary_pressure_kPa,
            of_two({.unit = "mmHg",
                    .range = {0, 300},
@@ -236,7 +236,7 @@ Table circulation_table() {
             .range = above_zero(1e4),
             .meaning = "compliance of the arteries",
             .source = "Regazzoni 2022: 1.372"},
-           {kPa_per_mmHg})
+           {compliance_per_mL_per_mmHg})
       .key("venous_pressure_mmHg", &Circulation::venous_pressure_kPa,
            {.unit = "mmHg",
             .range = {0, 100},

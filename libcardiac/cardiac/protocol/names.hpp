@@ -57,7 +57,7 @@ constexpr Names<1> names_of(ContractionModel) {
 constexpr Names<1> names_of(Base) {
   return {"clamped"};
 }
-constexpr Names<1> names_of(SupportDirections) {
+constexpr Names<2> names_of(SupportDirections) {
   return {"normal", "all"};
 }
 

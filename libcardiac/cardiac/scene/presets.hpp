@@ -5,9 +5,9 @@
 /// What a scene leaves open and its other values decide.
 namespace cardiac {
 
-/// The presets, written out: enrichment, pressure space and border functions that the scene does not name, and
-/// the duration of the contraction by the heart rate. The accurate preset has more functions along the wall
-/// where regions differ. What is named stays.
+/// The presets, written out: enrichment, pressure space and border functions that the scene does not name,
+/// and the duration of the contraction by the heart rate. The accurate preset has more functions along the
+/// wall where regions differ. What is named stays.
 void fill_presets(Scene& scene);
 
 /// Raises the local bulk modulus where the muscle of one ventricle contracts.

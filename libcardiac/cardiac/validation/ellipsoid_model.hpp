@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <cardiac/model/ventricle.hpp>
+#include <cardiac/protocol/protocol.hpp>
 #include <polyaffine/geometry/locate.hpp>
 
 namespace cardiac {

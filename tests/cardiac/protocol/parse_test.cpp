@@ -43,7 +43,7 @@ TEST(Parse, AbsentTablesStayAbsentAndNamedOnesTakeDefaults) {
   const auto passive = parsed(kPassive);
   EXPECT_FALSE(passive.fibres || passive.activation || passive.contraction || passive.circulation);
   ASSERT_TRUE(passive.cavities);
-  EXPECT_EQ(passive.cavities->pressure_kPa, 7.5 * kPa_per_mmHg);
+  EXPECT_EQ(passive.cavities->pressure_kPa, 7.5 * cardiac::kPa_per_mmHg);
   const auto beat = parsed(kBeat);
   EXPECT_TRUE(beat.fibres && beat.activation && beat.contraction && beat.circulation);
   EXPECT_FALSE(beat.cavities);

@@ -47,7 +47,8 @@ struct Bar {
 };
 
 // Of a bar held at one end, ω = π/2L √(E/ρ).
-const double kPeriod = 2 * std::numbers::pi / (std::numbers::pi / (2 * kLength) * std::sqrt(kYoung / kDensity));
+const double kPeriod =
+    2 * std::numbers::pi / (std::numbers::pi / (2 * kLength) * std::sqrt(kYoung / kDensity));
 
 double cosine_of(const Bar& bar, const System& system, const Vector& y) {
   const Vector mode = bar.mode(system, 1);

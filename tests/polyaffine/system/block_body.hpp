@@ -13,8 +13,8 @@
 
 namespace polyaffine::testing {
 
-/// A block of 2 × 1 × 1 mm in linear elements, held at x = 0, with terms of every kind: a viscous solid with a
-/// pressure space, inertia, and a support at its free end.
+/// A block of 2 × 1 × 1 mm in linear elements, held at x = 0, with terms of every kind: a viscous solid with
+/// a pressure space, inertia, and a support at its free end.
 struct BlockBody {
   TetMesh mesh = labelled_box(Vec3::Zero(), Vec3(2, 1, 1), {2, 1, 1}, 0.1);
   LagrangeBasis basis{mesh, 1};
@@ -29,9 +29,7 @@ struct BlockBody {
         std::move(table),
         Laws{std::make_shared<NeoHookean>(Lame{20, 10}), std::make_shared<KelvinVoigt>(viscosity)}, space);
   }
-  FieldTable end() const {
-    return displacement_table(basis, basis.surface_points(mesh, {kXHigh}, 2));
-  }
+  FieldTable end() const { return displacement_table(basis, basis.surface_points(mesh, {kXHigh}, 2)); }
   Points end_normals() const {
     return Vec3::UnitX().replicate(1, basis.surface_points(mesh, {kXHigh}, 2).X.cols());
   }

@@ -97,14 +97,12 @@ TEST_P(EveryTangent, CorrectionsInvertTheDerivativeOfTheResidual) {
   EXPECT_EQ(tangent.cost().linear_solves, 1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Linearised, EveryTangent,
-                         ::testing::Values(Case{"field", false, false, false, false},
-                                           Case{"inertia", true, false, false, false},
-                                           Case{"mixed", false, true, false, false},
-                                           Case{"few", false, false, true, false},
-                                           Case{"few_exactly", false, false, true, true},
-                                           Case{"all", true, true, true, true}),
-                         [](const auto& of) { return std::string(of.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Linearised, EveryTangent,
+    ::testing::Values(Case{"field", false, false, false, false}, Case{"inertia", true, false, false, false},
+                      Case{"mixed", false, true, false, false}, Case{"few", false, false, true, false},
+                      Case{"few_exactly", false, false, true, true}, Case{"all", true, true, true, true}),
+    [](const auto& of) { return std::string(of.param.name); });
 
 // From s = 2 to s³ = 0.001: Newton's tangent at 2 would leave 2/3 of the way.
 TEST(Linearised, MeetsWhatBendsAsItIs) {

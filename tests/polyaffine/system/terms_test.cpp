@@ -26,8 +26,11 @@ TEST(Support, HoldsAFaceWithItsStiffnessAndDamping) {
   const BlockBody body;
   const System system = body.system({});
   const Vec3 u(0.2, -0.1, 0.05), v(1e-3, 2e-3, 0);
-  const Vector y = u.replicate(body.basis.num_functions(), 1), rate = v.replicate(body.basis.num_functions(), 1);
-  const auto sum = [&](const Vector& f) { return Vec3(f.reshaped(3, body.basis.num_functions()).rowwise().sum()); };
+  const Vector y = u.replicate(body.basis.num_functions(), 1),
+               rate = v.replicate(body.basis.num_functions(), 1);
+  const auto sum = [&](const Vector& f) {
+    return Vec3(f.reshaped(3, body.basis.num_functions()).rowwise().sum());
+  };
   const auto all = body.support({.stiffness_kPa_per_mm = 3, .damping_kPa_ms_per_mm = 50});
   EXPECT_LT((sum(force(*all, system, y, &rate)) - (3 * u + 50 * v)).norm(), 1e-12);
   EXPECT_LT((sum(force(*all, system, y)) - 3 * u).norm(), 1e-12);  // nothing moves: no dashpot
@@ -64,28 +67,38 @@ TEST(Terms, ParameterDerivativesAreThoseOfTheResidual) {
   System layout = body.system({});
   body.add_inertia(layout);
   const Vector y = random_vector(layout.size(), 0.1, 1), rate = random_vector(layout.size(), 0.01, 2);
-  const auto check = [&](const std::string& name, const std::function<std::shared_ptr<const Term>(double)>& make,
-                         double value) {
+  const auto check = [&](const std::string& name,
+                         const std::function<std::shared_ptr<const Term>(double)>& make, double value) {
     SCOPED_TRACE(name);
     const auto term = make(value);
     EXPECT_TRUE(std::ranges::count(term->parameters(), name) == 1);
-    const auto report = check_jacobian(
-        [&](const Vector& x) { return force(*make(x[0]), layout, y, &rate); },
-        [&](const Vector&) {
-          Vector out = Vector::Zero(layout.size());
-          term->add_parameter_derivative(name, {0, y, &rate}, out);
-          return Matrix(out);
-        },
-        Vector::Constant(1, value));
+    const auto report = check_jacobian([&](const Vector& x) { return force(*make(x[0]), layout, y, &rate); },
+                                       [&](const Vector&) {
+                                         Vector out = Vector::Zero(layout.size());
+                                         term->add_parameter_derivative(name, {0, y, &rate}, out);
+                                         return Matrix(out);
+                                       },
+                                       Vector::Constant(1, value));
     EXPECT_TRUE(report.passed) << report.relative_error;
   };
-  check("stiffness", [&](double x) { return body.support({x, eta}); }, k);
-  check("damping", [&](double x) { return body.support({k, x}); }, eta);
+  check(
+      "stiffness",
+      [&](double x) {
+        return body.support({x, eta});
+      },
+      k);
+  check(
+      "damping",
+      [&](double x) {
+        return body.support({k, x});
+      },
+      eta);
   check(
       "density",
       [&](double x) {
         StateLayout own = body.system({}).layout;
-        return std::make_shared<Inertia>(displacement_table(body.basis, body.basis.wall_points(2)), x, 1e-3, own);
+        return std::make_shared<Inertia>(displacement_table(body.basis, body.basis.wall_points(2)), x, 1e-3,
+                                         own);
       },
       rho);
   Vector out = Vector::Zero(layout.size());
