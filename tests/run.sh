@@ -4,11 +4,10 @@
 #   build, consumers, headers, tests
 #                    the release build; programs against its installed libraries; every installed header alone;
 #                    every test
-#   plain            the build without VTK and CGAL, with those tests that need neither
-#   sanitizers       the tests of some folders of libpolyaffine, built with Clang, under address and
-#                    undefined-behaviour sanitizers
 # Options:
-#   --quick     without the stages plain and sanitizers
+#   --ci        two stages more: `plain`, the build without VTK and CGAL with those tests that need neither, and
+#               `sanitizers`, the tests of some folders of libpolyaffine, built with Clang, under address and
+#               undefined-behaviour sanitizers
 #   --sanitize  all tests under sanitizers
 #   --debug     also compare the tables of an unoptimised build with those of the release build (1e-8)
 #   --plain     also compare the tables of the plain build with those of the release build (equal)
@@ -19,10 +18,10 @@ set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 source apps/setup.sh
 
-quick=no sanitize=no debug=no plain=no cost=no extreme=no tidy=no
+ci=no sanitize=no debug=no plain=no cost=no extreme=no tidy=no
 for option in "$@"; do
   case $option in
-    --quick) quick=yes ;;
+    --ci) ci=yes ;;
     --sanitize) sanitize=yes ;;
     --debug) debug=yes ;;
     --plain) plain=yes ;;
@@ -30,7 +29,7 @@ for option in "$@"; do
     --extreme) extreme=yes ;;
     --tidy) tidy=yes ;;
     *)
-      echo "usage: bash tests/run.sh [--quick] [--sanitize] [--debug] [--plain] [--cost] [--extreme] [--tidy]" >&2
+      echo "usage: bash tests/run.sh [--ci] [--sanitize] [--debug] [--plain] [--cost] [--extreme] [--tidy]" >&2
       exit 2
       ;;
   esac
@@ -57,7 +56,7 @@ finish() {
 
 purposes=(tests)
 [[ $tidy == yes ]] && purposes+=(tidy)
-[[ $sanitize == yes || $quick == no ]] && purposes+=(sanitize)
+[[ $sanitize == yes || $ci == yes ]] && purposes+=(sanitize)
 install_packages "${purposes[@]}" || exit 1
 
 check_format() { sources '*.[ch]pp' | xargs -0 clang-format --dry-run -Werror; }
@@ -82,7 +81,7 @@ check "consumers" bash tests/consumers.sh build/release
 check "headers" check_headers
 [[ $tidy == yes ]] && check "clang-tidy" check_tidy
 check "tests" run_tests release
-if [[ $quick == no || $plain == yes ]]; then
+if [[ $ci == yes || $plain == yes ]]; then
   check "plain: build" build plain
   check "plain: tests" run_tests plain
 fi
@@ -90,7 +89,7 @@ fi
 if [[ $sanitize == yes ]]; then
   check "sanitizers: build" build sanitize
   check "sanitizers: tests" run_tests sanitize
-elif [[ $quick == no ]]; then
+elif [[ $ci == yes ]]; then
   check "sanitizers: build" build sanitize "${sanitized_folders[@]/#/test_polyaffine_}"
   check "sanitizers: tests" run_tests sanitize --tests-regex "^polyaffine/($(IFS='|'; echo "${sanitized_folders[*]}"))/"
 fi

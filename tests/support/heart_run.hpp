@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <cardiac/protocol/build_anatomy.hpp>
 #include <cardiac/run/simulate.hpp>
 #include <polyaffine/vtk/read.hpp>
 
