@@ -34,7 +34,7 @@ CoupledHeart couple(const Ventricle& ventricle, std::shared_ptr<const Circulatio
   out.system = wall_system(ventricle, ventricle.tension(), time.absolute_tolerance_mm);
   polyaffine::StateLayout& layout = out.system.layout;
   out.displacement = layout.field();
-  add_inertia(ventricle, time, out.system);
+  add_states(ventricle, time, out.system);
   const double pressure_tolerance = time.absolute_tolerance_kPa;
   out.volumes = layout.add(
       {.name = "cavity volumes", .unit = "mm3", .absolute_tolerance = kVolumeTolerance_mm3}, cavities);
@@ -75,12 +75,12 @@ HeartState CoupledHeart::unpack(double time_ms, const Vector& y) const {
   return {time_ms, displacement.of(y), volumes.of(y), pressures.of(y), vessels.of(y)};
 }
 
-polyaffine::SystemCost make_consistent(const CoupledHeart& heart, double t, Vector& y, Vector& rate) {
+polyaffine::SystemCost make_consistent(const CoupledHeart& heart, polyaffine::LinearSystem& linear, double t,
+                                       Vector& y, Vector& rate) {
   const int m = heart.num_cavities();
   const auto circulate = [&] { return heart.circulation->rates(heart.states(y), heart.pressures.of(y)); };
   heart.vessels.of(rate) = circulate().values.tail(heart.vessels.size);
-  const auto linear = heart.system.make_linear();
-  polyaffine::Linearised viscous(heart.system, *linear);
+  polyaffine::Linearised viscous(heart.system, linear);
   if (!viscous.factorise({t, y, &rate}, kViscousAlpha)) return viscous.cost();
   Matrix Z(heart.displacement.size, m), gradient(heart.displacement.size, m);  // of the volumes
   for (int k = 0; k < m; ++k) {

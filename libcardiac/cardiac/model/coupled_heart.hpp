@@ -36,8 +36,9 @@ CoupledHeart couple(const Ventricle& ventricle, std::shared_ptr<const Circulatio
 /// by Z δ and V̇ by (∂V/∂c)ᵀZ δ, to the flows of the circulation at p + δ, solved by Newton's method. From a
 /// wall in static equilibrium at rest this is how a beat begins, and from one in motion how it goes on after
 /// the vessels' pressures were changed. Without viscosity δ = 0 and ċ is the elastic motion at the rate V̇. On
-/// failure (a singular tangent) the wall keeps its motion. Returns what it took.
-polyaffine::SystemCost make_consistent(const CoupledHeart& heart, double t, polyaffine::Vector& y,
-                                       polyaffine::Vector& rate);
+/// failure (a singular tangent) the wall keeps its motion. `linear` is of the heart's system
+/// (System::make_linear). Returns what it took.
+polyaffine::SystemCost make_consistent(const CoupledHeart& heart, polyaffine::LinearSystem& linear, double t,
+                                       polyaffine::Vector& y, polyaffine::Vector& rate);
 
 }  // namespace cardiac

@@ -110,11 +110,17 @@ std::shared_ptr<const polyaffine::Term> epicardial_support(const polyaffine::Bas
                                                std::move(parameters));
 }
 
-// Points that integrate products of two functions: those of the elements, or of a reduced model its own.
-polyaffine::FieldTable mass_table(const Discretisation& d) {
+// The mass is integrated at points that are exact for products of two functions: those of the elements, or of
+// a reduced model its own.
+StateTerm inertia(const Discretisation& d, double density_mg_per_mm3) {
   const auto* elements = dynamic_cast<const polyaffine::LagrangeBasis*>(d.basis.get());
-  return polyaffine::displacement_table(*d.basis,
-                                        elements ? elements->wall_points(2 * elements->order()) : d.points);
+  const polyaffine::WallPoints points = elements ? elements->wall_points(2 * elements->order()) : d.points;
+  return [table = polyaffine::displacement_table(*d.basis, points), density_mg_per_mm3](
+             polyaffine::StateLayout& layout, const scene::Time& time) {
+    // Of the displacement that a velocity makes in the longest step.
+    const double tolerance = time.absolute_tolerance_mm / time.max_step_ms;
+    return std::make_shared<polyaffine::Inertia>(table, density_mg_per_mm3, tolerance, layout);
+  };
 }
 
 }  // namespace
@@ -165,8 +171,7 @@ Ventricle assemble_ventricle(std::shared_ptr<const Anatomy> anatomy, const Scene
     out.supports.push_back(epicardial_support(*d.basis, d.epicardium_points, scene.boundary));
   if (scene.tissue.density_mg_per_mm3 > 0 && scene.contraction) {
     ++out.built["inertia"];
-    out.mass = std::make_shared<const polyaffine::FieldTable>(mass_table(d));
-    out.density_mg_per_mm3 = scene.tissue.density_mg_per_mm3;
+    out.states.push_back(inertia(d, scene.tissue.density_mg_per_mm3));
   }
   if (scene.contraction) out.contraction = build_contraction(*anatomy, scene, d.points, factors, out.built);
   out.anatomy = std::move(anatomy);
@@ -183,12 +188,8 @@ polyaffine::System wall_system(const Ventricle& ventricle, polyaffine::PointValu
   return out;
 }
 
-void add_inertia(const Ventricle& ventricle, const scene::Time& time, polyaffine::System& system) {
-  if (!ventricle.mass) return;
-  // Of the displacement that a velocity makes in the longest step.
-  const double tolerance = time.absolute_tolerance_mm / time.max_step_ms;
-  system.terms.push_back(std::make_shared<polyaffine::Inertia>(*ventricle.mass, ventricle.density_mg_per_mm3,
-                                                               tolerance, system.layout));
+void add_states(const Ventricle& ventricle, const scene::Time& time, polyaffine::System& system) {
+  for (const StateTerm& make : ventricle.states) system.terms.push_back(make(system.layout, time));
 }
 
 polyaffine::System pressed_system(const Ventricle& ventricle, polyaffine::PointValues tension,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -27,16 +28,19 @@ struct Cavity {
   std::shared_ptr<const polyaffine::FieldEnergy> volume;
 };
 
+/// Makes a term with unknowns of its own (inertia and its velocity), whose block it adds to a layout.
+using StateTerm = std::function<std::shared_ptr<const polyaffine::Term>(polyaffine::StateLayout& layout,
+                                                                        const scene::Time& time)>;
+
 /// One or two ventricles assembled from the parts that a scene names, full order or reduced; parts it does
 /// not name are not there. Immutable once built.
 struct Ventricle {
   std::shared_ptr<const Anatomy> anatomy;
   Discretisation discretisation;
   std::shared_ptr<const polyaffine::FieldEnergy> wall;
-  std::vector<Cavity> cavities;                        ///< in the order of Discretisation::cavities
-  polyaffine::Terms supports;                          ///< what holds the wall's surfaces
-  std::shared_ptr<const polyaffine::FieldTable> mass;  ///< displacement, for inertia; null without
-  double density_mg_per_mm3 = 0;
+  std::vector<Cavity> cavities;   ///< in the order of Discretisation::cavities
+  polyaffine::Terms supports;     ///< what holds the wall's surfaces
+  std::vector<StateTerm> states;  ///< terms with unknowns of their own, for systems in time
   std::shared_ptr<const ContractionField> contraction;
   std::shared_ptr<const Ventricle> all_points;  ///< the same without a trained rule; null where there is none
   BuildCount built;
@@ -72,9 +76,8 @@ struct WallLoad {
 polyaffine::System wall_system(const Ventricle& ventricle, polyaffine::PointValues tension = {},
                                double tolerance_mm = 0);
 
-/// Adds the inertia that the ventricle has, with its velocity, to a system in time; of `time` the tolerances
-/// are read.
-void add_inertia(const Ventricle& ventricle, const scene::Time& time, polyaffine::System& system);
+/// Adds the terms that have unknowns of their own to a system in time; of `time` the tolerances are read.
+void add_states(const Ventricle& ventricle, const scene::Time& time, polyaffine::System& system);
 
 /// The same under pressures p(t) in the cavities, − Σ p ∂V/∂c. Cavities without a pressure have none.
 polyaffine::System pressed_system(const Ventricle& ventricle, polyaffine::PointValues tension,

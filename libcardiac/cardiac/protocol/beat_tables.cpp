@@ -276,7 +276,8 @@ Table boundary_table() {
       .key("epicardial_directions", &Boundary::epicardial_directions,
            {.meaning = "normal: springs and dashpots act along the reference normal, so that the heart may "
                        "slide and turn; all: in all directions",
-            .source = "Pfaller 2019: normal"});
+            .source = "Pfaller 2019: normal",
+            .also = {held()}});
   return table.build();
 }
 

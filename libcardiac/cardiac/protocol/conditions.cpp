@@ -56,6 +56,13 @@ Condition along_sheets() {
           [](const Protocol& p, std::size_t) { return p.tissue.law == TissueLaw::holzapfel_ogden; }};
 }
 
+Condition held() {
+  return {"a stiffness or damping of the epicardium", [](const Protocol& p, std::size_t) {
+            return p.boundary.epicardial_stiffness_kPa_per_mm > 0 ||
+                   p.boundary.epicardial_damping_kPa_ms_per_mm > 0;
+          }};
+}
+
 Condition differs() {
   return {"a factor or delay of its [[region]] that differs from the rest",
           [](const Protocol& p, std::size_t entry) { return region_differs(p, p.regions.at(entry)); }};

@@ -27,6 +27,8 @@ Condition two_ventricles();
 Condition along_fibres();
 /// The law tells sheets from their normals; the active tension does not.
 Condition along_sheets();
+/// Springs or dashpots hold the epicardium.
+Condition held();
 /// The entry of [[region]] differs from the rest; some entry does.
 Condition differs();
 Condition some_differ();

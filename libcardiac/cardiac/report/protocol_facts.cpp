@@ -74,11 +74,20 @@ std::string axis_sentence(const Json& protocol) {
 }
 
 std::string outside_sentence(const Json& protocol) {
-  const Json stiffness = value_at(protocol, "boundary", "epicardial_stiffness_kPa_per_mm");
-  if (stiffness.is_number() && stiffness.get<double>() > 0)
-    return "Springs of " + number_text(stiffness.get<double>()) +
-           " kPa/mm along the normal hold the outer wall (boundary.epicardial_stiffness_kPa_per_mm).";
-  return "Nothing holds the outer wall: no pericardium, no neighbours.";
+  const auto number = [&](const char* key) {
+    const Json value = value_at(protocol, "boundary", key);
+    return value.is_number() ? value.get<double>() : 0.0;
+  };
+  const double stiffness = number("epicardial_stiffness_kPa_per_mm"),
+               damping = number("epicardial_damping_kPa_ms_per_mm");
+  std::string what;
+  if (stiffness > 0) what = "Springs of " + number_text(stiffness) + " kPa/mm";
+  if (damping > 0)
+    what += (what.empty() ? "Dashpots of " : " and dashpots of ") + number_text(damping) + " kPa·ms/mm";
+  if (what.empty()) return "Nothing holds the outer wall: no pericardium, no neighbours.";
+  const bool all = value_at(protocol, "boundary", "epicardial_directions") == "all";
+  return what + (all ? " in all directions" : " along the normal") +
+         " hold the outer wall (boundary.epicardial_stiffness_kPa_per_mm, epicardial_damping_kPa_ms_per_mm).";
 }
 
 }  // namespace

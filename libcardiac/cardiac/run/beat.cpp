@@ -119,7 +119,8 @@ std::string unclosed_warning(const HeartPath& path, int volumes, const Scene& sc
 }
 
 // Begins the next beat with the vessels' pressures of the estimated limit, from what the last one ended with.
-void extrapolate(const CoupledHeart& heart, double t, HeartPath& path, Vector& y, Vector& rate) {
+void extrapolate(const CoupledHeart& heart, polyaffine::LinearSystem& linear, double t, HeartPath& path,
+                 Vector& y, Vector& rate) {
   const CycleEstimate limit = estimate_limit_cycle(path.cycle, heart.num_cavities());
   if (!limit.extrapolated) return;
   Vector wanted = limit.pressures_kPa;
@@ -128,12 +129,13 @@ void extrapolate(const CoupledHeart& heart, double t, HeartPath& path, Vector& y
     wanted.array() += compliances.dot(heart.vessels.of(y) - wanted) / compliances.sum();
   }
   heart.vessels.of(y) = wanted;
-  add_cost(make_consistent(heart, t, y, rate), path.cost);
+  add_cost(make_consistent(heart, linear, t, y, rate), path.cost);
 }
 
 // The beat that the path has come to, from and to (y, rate). False, with the reason, when it stopped.
-bool run_beat(const CoupledHeart& heart, const Scene& scene, const ContractionField& contraction,
-              const RunControl& control, Vector& y, Vector& rate, HeartPath& path) {
+bool run_beat(const CoupledHeart& heart, polyaffine::LinearSystem& linear, const Scene& scene,
+              const ContractionField& contraction, const RunControl& control, Vector& y, Vector& rate,
+              HeartPath& path) {
   const double period = contraction.curve.period_ms(), onset_ms = contraction_onset_ms(contraction);
   const int beat = path.beats;
   const double begin = beat * period, end = (beat + 1) * period;
@@ -142,7 +144,7 @@ bool run_beat(const CoupledHeart& heart, const Scene& scene, const ContractionFi
   path.beat_start_ms = begin;
   path.steps = {heart.unpack(0, y)};
   path.outputs = path.steps;
-  polyaffine::DaeIntegrator ida(heart.system, dae_options(scene.time), begin, y, rate);
+  polyaffine::DaeIntegrator ida(heart.system, linear, dae_options(scene.time), begin, y, rate);
   BeatInstants instants(heart, begin, onset_ms, y, path);
   CycleBeat cycle{heart.states(y), {}, 0};
   std::string stop;
@@ -193,7 +195,8 @@ bool run_beat(const CoupledHeart& heart, const Scene& scene, const ContractionFi
 
 // The wall filled, and (y, rate) when the first beat begins. False, with the reason, when it stopped.
 bool begin_beats(const Ventricle& ventricle, const Scene& scene, const RunControl& control,
-                 const CoupledHeart& heart, Vector& y, Vector& rate, HeartPath& path) {
+                 const CoupledHeart& heart, polyaffine::LinearSystem& linear, Vector& y, Vector& rate,
+                 HeartPath& path) {
   const scene::Circulation& circulation = *scene.circulation;
   Vector c = Vector::Zero(ventricle.num_coefficients());
   const auto begin = std::chrono::steady_clock::now();
@@ -202,7 +205,7 @@ bool begin_beats(const Ventricle& ventricle, const Scene& scene, const RunContro
   if (!filled) return false;
   y = heart.pack(filled_state(ventricle, circulation, c));
   rate = Vector::Zero(y.size());
-  add_cost(make_consistent(heart, 0, y, rate), path.cost);
+  add_cost(make_consistent(heart, linear, 0, y, rate), path.cost);
   return true;
 }
 
@@ -246,6 +249,8 @@ Checkpoint checkpoint(const HeartPath& path, const Vector& y, const Vector& rate
 HeartPath run_beats(const Ventricle& ventricle, const Scene& scene, const RunControl& control) {
   const CoupledHeart heart =
       couple(ventricle, circulation_model(ventricle.cavities.size() > 1, *scene.circulation), scene.time);
+  // One for all beats: its analysis takes as long as some steps.
+  const auto linear = heart.system.make_linear();
   const int cavities = heart.num_cavities();
   HeartPath path;
   ++path.built["circulation"];
@@ -254,15 +259,15 @@ HeartPath run_beats(const Ventricle& ventricle, const Scene& scene, const RunCon
   if (control.resume)
     take_up(*control.resume, heart, y, rate, path);
   else
-    going_on = begin_beats(ventricle, scene, control, heart, y, rate, path);
+    going_on = begin_beats(ventricle, scene, control, heart, *linear, y, rate, path);
   while (going_on && !path.completed) {
     if (control.on_checkpoint) control.on_checkpoint(checkpoint(path, y, rate));
-    going_on = run_beat(heart, scene, *ventricle.contraction, control, y, rate, path);
+    going_on = run_beat(heart, *linear, scene, *ventricle.contraction, control, y, rate, path);
     if (!going_on) break;
     ++path.beats;
     is_closed = closed(path, cavities, scene);
     path.completed = is_closed || path.beats == scene.time.max_beats || is_noise(path.cycle, cavities);
-    if (!path.completed) extrapolate(heart, path.simulated_ms, path, y, rate);
+    if (!path.completed) extrapolate(heart, *linear, path.simulated_ms, path, y, rate);
   }
   if (path.completed && !is_closed) path.warnings.push_back(unclosed_warning(path, cavities, scene));
   return path;

@@ -119,7 +119,7 @@ class Contraction {
     for (const double p : pressures_kPa) constant.emplace_back([p](double) { return p; });
     polyaffine::System out =
         pressed_system(ventricle, ventricle.tension(), constant, scene.time.absolute_tolerance_mm);
-    add_inertia(ventricle, scene.time, out);
+    add_states(ventricle, scene.time, out);
     return out;
   }
 

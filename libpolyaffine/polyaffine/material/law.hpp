@@ -15,7 +15,8 @@ class Law {
   /// (fibres, stiffness) and in `state`. Values are meaningless, but finite work, where det F ≤ 0: callers
   /// check det F.
   virtual void respond(PackPoints points, const PackMotion& at, bool tangent, PackResponse& r) const = 0;
-  /// Whether P depends on Ḟ; only such laws are shown it.
+  /// Whether P depends on Ḟ; only such laws are shown it. They have no energy and add to a response that is
+  /// not cleared.
   virtual bool feels_rate() const { return false; }
 
   /// Adds W (1 number a point), P (9) and A (81, the 9×9 matrix ∂P_i/∂F_j) for `count` points from index

@@ -184,7 +184,6 @@ struct DaeIntegrator::Implementation {
   sundials::Context context;
   sundials::NVector y, rate;
   sundials::Matrix matrix;
-  std::unique_ptr<LinearSystem> linear;
   Linearised linearised;
   DirectSolver direct;
   sundials::LinearSolver solver;
@@ -194,7 +193,7 @@ struct DaeIntegrator::Implementation {
   std::string failure;
   void* ida = nullptr;
 
-  explicit Implementation(const System& system) : linear(system.make_linear()), linearised(system, *linear) {}
+  Implementation(const System& system, LinearSystem& linear_system) : linearised(system, linear_system) {}
   ~Implementation() {
     if (ida) IDAFree(&ida);
   }
@@ -202,7 +201,18 @@ struct DaeIntegrator::Implementation {
 
 DaeIntegrator::DaeIntegrator(const System& system, const DaeOptions& options, double t, const Vector& y,
                              const Vector& rate)
-    : impl_(std::make_unique<Implementation>(system)) {
+    : own_linear_(system.make_linear()), impl_(std::make_unique<Implementation>(system, *own_linear_)) {
+  begin(system, options, t, y, rate);
+}
+
+DaeIntegrator::DaeIntegrator(const System& system, LinearSystem& linear, const DaeOptions& options, double t,
+                             const Vector& y, const Vector& rate)
+    : impl_(std::make_unique<Implementation>(system, linear)) {
+  begin(system, options, t, y, rate);
+}
+
+void DaeIntegrator::begin(const System& system, const DaeOptions& options, double t, const Vector& y,
+                          const Vector& rate) {
   auto& m = *impl_;
   m.max_step = options.max_step;
   m.user.system = &system;

@@ -28,7 +28,11 @@ enum class DaeStatus { reached, failed };
 /// coefficients it has.
 class DaeIntegrator {
  public:
-  /// The system must outlive it.
+  /// The system must outlive it, and so must the LinearSystem of its field (System::make_linear), which may
+  /// serve one integrator after the other.
+  DaeIntegrator(const System& system, LinearSystem& linear, const DaeOptions& options, double t,
+                const Vector& y, const Vector& rate);
+  /// With a linear system of its own.
   DaeIntegrator(const System& system, const DaeOptions& options, double t, const Vector& y,
                 const Vector& rate);
   ~DaeIntegrator();
@@ -53,6 +57,9 @@ class DaeIntegrator {
 
  private:
   struct Implementation;
+  void begin(const System& system, const DaeOptions& options, double t, const Vector& y, const Vector& rate);
+
+  std::unique_ptr<LinearSystem> own_linear_;
   std::unique_ptr<Implementation> impl_;
 };
 

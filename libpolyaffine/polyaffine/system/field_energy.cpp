@@ -62,7 +62,10 @@ struct FieldEnergy::Kinematics {
 FieldEnergy::FieldEnergy(FieldTable table, std::vector<std::shared_ptr<const Law>> laws,
                          std::optional<PressureSpace> pressure)
     : table_(std::move(table)), laws_(std::move(laws)), pressure_(std::move(pressure)), first_pack_{0} {
-  for (const auto& law : laws_) feels_rate_ = feels_rate_ || law->feels_rate();
+  const auto first =
+      std::stable_partition(laws_.begin(), laws_.end(), [](const auto& law) { return !law->feels_rate(); });
+  viscous_.assign(first, laws_.end());
+  laws_.erase(first, laws_.end());
   if (pressure_) inverse_mass_ = InverseMass(*pressure_, table_);
   for (const auto& block : table_.blocks) {
     packed_.emplace_back(block, table_);
@@ -72,7 +75,7 @@ FieldEnergy::FieldEnergy(FieldTable table, std::vector<std::shared_ptr<const Law
 
 FieldEnergy::Kinematics FieldEnergy::kinematics(const Motion& motion) const {
   Kinematics kin;
-  const bool with_rate = feels_rate_ && motion.rate;
+  const bool with_rate = feels_rate() && motion.rate;
   kin.F.resize(first_pack_.back());
   if (with_rate) kin.rate.resize(first_pack_.back());
   kin.J.resize(table_.num_points());
@@ -113,7 +116,6 @@ void FieldEnergy::respond(const Kinematics& kin, const Motion& motion, std::size
   const PackMotion seen{kin.F[at], motion.state, kin.rate.empty() ? nullptr : &kin.rate[at], rate_factor};
   clear(r, tangent);
   for (const auto& law : laws_) {
-    if (law->feels_rate() && !seen.rate) continue;
     if (&law == &laws_.front()) {
       law->respond(points, seen, tangent, r);
       continue;
@@ -123,6 +125,8 @@ void FieldEnergy::respond(const Kinematics& kin, const Motion& motion, std::size
     law->respond(points, seen, tangent, own);
     add(own, tangent, r);
   }
+  if (seen.rate)
+    for (const auto& law : viscous_) law->respond(points, seen, tangent, r);
   if (pressure.size() > 0)
     add_volumetric(
         kin.F[at], cofactor(kin.F[at]),

@@ -53,7 +53,7 @@ class FieldEnergy {
 
   const FieldTable& table() const { return table_; }
   const std::optional<PressureSpace>& pressure_space() const { return pressure_; }
-  bool feels_rate() const { return feels_rate_; }
+  bool feels_rate() const { return !viscous_.empty(); }
 
   /// Value and gradient; when min_det ≤ 0 in a wall the numbers are not to be used.
   EnergyValue evaluate(const Motion& motion) const;
@@ -81,9 +81,8 @@ class FieldEnergy {
   Vector point_pressure(const Vector& p, std::size_t k) const;
 
   FieldTable table_;
-  std::vector<std::shared_ptr<const Law>> laws_;
+  std::vector<std::shared_ptr<const Law>> laws_, viscous_;  // those that feel the rate apart
   std::optional<PressureSpace> pressure_;
-  bool feels_rate_ = false;
   InverseMass inverse_mass_;
   std::vector<PackedBlock> packed_;
   std::vector<int> first_pack_;  // of each block, and their number

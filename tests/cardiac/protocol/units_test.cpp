@@ -34,7 +34,7 @@ absolute_tolerance_mmHg = 0.2
                                     "units");
   EXPECT_NEAR(p.circulation->filling_pressure_kPa, 1.59986864898, 1e-11);
   EXPECT_NEAR(p.circulation->mitral_resistance_kPa_ms_per_mm3, 0.0026664477483, 1e-13);
-  EXPECT_NEAR(p.circulation->compliance_mm3_per_kPa, 11250.9252360, 1e-6);
+  EXPECT_NEAR(p.circulation->compliance_mm3_per_kPa, 11250.9236377, 1e-6);
   EXPECT_NEAR(p.circulation->aortic_leak_resistance_kPa_ms_per_mm3.value(), 0.0399967162245, 1e-12);
   EXPECT_NEAR(p.contraction->activation_rate_per_ms, 0.007, 1e-15);
   EXPECT_NEAR(p.contraction->relaxation_rate_per_ms, 0.04, 1e-15);

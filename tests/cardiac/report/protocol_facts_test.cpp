@@ -48,6 +48,10 @@ TEST(ProtocolFacts, AssumptionsFollowWhatIsGiven) {
     EXPECT_THAT(given, HasSubstr(text));
   for (const char* text : {"free of stress", "is clamped", "Nothing holds", "(0, 1, 0)"})
     EXPECT_THAT(given, Not(HasSubstr(text)));
+  EXPECT_THAT(given, HasSubstr("along the normal hold"));
+  const std::string damped = assumptions(
+      R"({"boundary": {"epicardial_damping_kPa_ms_per_mm": 5.0, "epicardial_directions": "all"}})");
+  EXPECT_THAT(damped, HasSubstr("Dashpots of 5 kPa·ms/mm in all directions hold the outer wall"));
   const std::string point = assumptions(R"({"anatomy": {"septum_point": [-30.0, 2.0, 0.0]}})");
   EXPECT_THAT(point, HasSubstr("anatomy.septum_point = (-30, 2, 0)"));
   EXPECT_THAT(point, Not(HasSubstr("(0, 1, 0)")));

@@ -82,7 +82,7 @@ TEST(BiventricleHeart, PressuresFillBothCavitiesAndStrainAllSegments) {
                                run.result.instants.back().frames))
     EXPECT_LT(errors.maps, 1.001 * errors.best);
   // More pressure on the right alone pushes the septum to the left.
-  p.cavities = {10, 9};
+  p.cavities = {10 * kPa_per_mmHg, 9 * kPa_per_mmHg};
   const testing::HeartRun more(p, CoarseBiventricle::get().anatomy);
   ASSERT_TRUE(more.path.completed) << more.path.stop_reason;
   EXPECT_GT(more.path.steps.back().volumes_mm3[1], filled.volumes_mm3[1]);

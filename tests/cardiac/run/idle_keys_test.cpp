@@ -100,6 +100,10 @@ std::vector<RunKind> kinds() {
        affine + "[tissue]\nlaw = \"neo_hookean\"\n[cavities]\npressure_mmHg = 4\n[time]\n"
                 "load_steps = 2\n",
        {"anatomy", "tissue", "fibres", "cavities", "boundary", "time", "output"}},
+      {"held",
+       affine + "[tissue]\nlaw = \"neo_hookean\"\n[cavities]\npressure_mmHg = 4\n[boundary]\n"
+                "epicardial_stiffness_kPa_per_mm = 0.5\n[time]\nload_steps = 1\n",
+       {"boundary"}},
       {"linear",
        "[tissue]\nlaw = \"saint_venant_kirchhoff\"\n[cavities]\npressure_mmHg = 1\n[time]\nload_steps = 2\n",
        {"reduction", "tissue"}},
