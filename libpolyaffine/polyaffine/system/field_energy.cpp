@@ -1,6 +1,7 @@
 #include "polyaffine/system/field_energy.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <polyaffine/core/parallel.hpp>
 #include <polyaffine/kinematics/block_products.hpp>
@@ -51,12 +52,46 @@ void for_blocks(bool parallel, int count, const Work& work, const Finish& finish
   }
 }
 
+// A field over all packs. Its memory is kept by the thread for the next one: megabytes that are returned to
+// the system with every residual would be mapped and cleared anew each time.
+class PackField {
+ public:
+  PackField() {
+    if (spare().empty()) return;
+    data_ = std::move(spare().back());
+    spare().pop_back();
+  }
+  ~PackField() {
+    if (!data_.empty()) spare().push_back(std::move(data_));
+  }
+  PackField(PackField&& other) noexcept : data_(std::move(other.data_)), size_(other.size_) {}
+  PackField& operator=(PackField&&) = delete;
+
+  // What it held before may still be there.
+  void resize(std::size_t size) {
+    size_ = size;
+    if (data_.size() < size) data_.resize(size);
+  }
+  bool empty() const { return size_ == 0; }
+  Mat3Pack* data() { return data_.data(); }
+  const Mat3Pack& operator[](std::size_t k) const { return data_[k]; }
+
+ private:
+  using Data = std::vector<Mat3Pack>;
+  static std::vector<Data>& spare() {
+    thread_local std::vector<Data> fields;
+    return fields;
+  }
+  Data data_;
+  std::size_t size_ = 0;
+};
+
 }  // namespace
 
 struct FieldEnergy::Kinematics {
-  std::vector<Mat3Pack> F, rate;  // of all packs; the rate only where a law feels it
-  Vector J;                       // det F of all points
-  Vector g, p;                    // volume constraint and pressure coefficients
+  PackField F, rate;  // of all packs; the rate only where a law feels it
+  Vector J;           // det F of all points
+  Vector g, p;        // volume constraint and pressure coefficients
 };
 
 FieldEnergy::FieldEnergy(FieldTable table, std::vector<std::shared_ptr<const Law>> laws,
