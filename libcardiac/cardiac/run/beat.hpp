@@ -84,7 +84,7 @@ HeartPath run_beats(const Ventricle& ventricle, const Scene& scene, const RunCon
 /// A ventricle without circulation: pressure raised to the prescribed value in equilibrium, in load_steps,
 /// the time of the loading running from 0 to duration_ms. With contraction the loading takes no time; the
 /// pressure is then held while the muscle contracts at heart_rate_bpm for duration_ms, integrated by IDA with
-/// the viscosity of the tissue (PressedWall) and told every interval_ms.
+/// the viscosity of the tissue (pressed_system) and told every interval_ms.
 HeartPath run_prescribed(const Ventricle& ventricle, const Scene& scene, const RunControl& control = {});
 
 }  // namespace cardiac

@@ -39,7 +39,7 @@ struct Projection {
 Projection project(const LinearConstraints& constraints, double tolerance = 1e-12);
 
 /// Dense system restricted to the null space: solve(r) = Z (ZᵀKZ)⁻¹ Zᵀ r, so that a Newton step keeps the
-/// constraints. For EquilibriumProblem::projection.
+/// constraints. For System::projection.
 std::unique_ptr<LinearSystem> projected_system(std::shared_ptr<const Projection> projection);
 
 }  // namespace polyaffine
