@@ -183,7 +183,6 @@ RunControl control_of(const Scene& scene, const RunOptions& options, const std::
   control.on_checkpoint = [file, origin](const Checkpoint& at) {
     polyaffine::write_atomically(file, checkpoint_text(at, origin));
   };
-  control.on_built = [out] { remove_old_results(out); };
   control.on_distrust = [file] { std::filesystem::remove(file); };
   control.keep_absurd = options.force;
   if (options.resume) control.resume = last_checkpoint(file, origin);
@@ -211,16 +210,21 @@ void run(RunOptions options) {
 
   options.identity = resolved_json(protocol).dump();
   const InterruptGuard interrupt;
+  double setup_s = 0;
+  auto output_start = start;
   Outcome outcome;
   {
     ProgressLine line(options.quiet);
-    outcome = simulate(protocol, control_of(protocol, options, out, interrupt, line));
+    RunControl control = control_of(protocol, options, out, interrupt, line);
+    control.on_built = [&] {
+      setup_s = seconds_since(start);
+      remove_old_results(out);
+    };
+    control.on_solved = [&output_start] { output_start = std::chrono::steady_clock::now(); };
+    outcome = simulate(protocol, control);
   }
-  const auto& [ventricle, nodes, path, told] = outcome;
-  BeatResult result = told;
-  const double computed = seconds_since(start);
-  result.wall_setup_s = computed - result.wall_solve_s;
-  const auto output_start = std::chrono::steady_clock::now();
+  auto& [ventricle, nodes, path, result] = outcome;
+  result.wall_setup_s = setup_s;
   result.plan = items;
   print_warnings(result.warnings);
   result.warnings.insert(result.warnings.begin(), protocol.warnings.begin(), protocol.warnings.end());
