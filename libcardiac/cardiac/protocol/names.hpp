@@ -24,8 +24,8 @@ constexpr Names<2> names_of(Scheme) {
 constexpr Names<2> names_of(Method) {
   return {"polyaffine", "fem"};
 }
-constexpr Names<2> names_of(Preset) {
-  return {"fast", "accurate"};
+constexpr Names<3> names_of(Preset) {
+  return {"fast", "accurate", "tuned"};
 }
 constexpr Names<2> names_of(Weights) {
   return {"sigmoid", "tents"};

@@ -31,6 +31,9 @@ struct Discretisation {
   std::shared_ptr<const SegmentFrames> frames;  ///< null for full order and with sigmoid weights
   std::shared_ptr<const polyaffine::FrameField>
       pressure_frames;  ///< weights of pressures, a partition of unity up to the base; null for full order
+  std::shared_ptr<const polyaffine::Matrix>
+      element_pressures;  ///< pressure functions × tets of a nested model; null: see pressure_space
+  polyaffine::Matrix pressure_mass;  ///< of these functions over the elements, mm³
   polyaffine::WallPoints points;
   std::vector<CavitySurface> cavities;          ///< that have a load: the left ventricle's first
   polyaffine::SurfacePoints epicardium_points;  ///< empty unless a spring acts there

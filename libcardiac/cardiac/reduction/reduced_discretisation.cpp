@@ -8,6 +8,7 @@
 #include <cardiac/reduction/axes_check.hpp>
 #include <cardiac/reduction/biventricular_frames.hpp>
 #include <cardiac/reduction/border_frames.hpp>
+#include <cardiac/reduction/nested_space.hpp>
 #include <cardiac/reduction/reduced_points.hpp>
 #include <polyaffine/geometry/geodesic_regions.hpp>
 #include <polyaffine/kinematics/region_frames.hpp>
@@ -155,6 +156,7 @@ polyaffine::PressureSpace pressure_space(const Discretisation& discretisation,
                                          const polyaffine::FieldTable& table, const Scene& scene) {
   const double kappa = scene.tissue.bulk_modulus_kPa;
   if (!discretisation.frame_basis) return polyaffine::block_pressure(table, kappa);
+  if (discretisation.element_pressures) return element_pressure_space(discretisation, table, kappa);
 
   using Space = scene::PressureSpace;
   const auto& points = discretisation.points;

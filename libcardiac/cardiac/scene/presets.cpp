@@ -31,6 +31,12 @@ void fill_presets(Scene& scene) {
   const bool fast = reduction.preset == Preset::fast;
   const bool contrast = !fast && regions_differ(scene);
   using Words = std::vector<std::string>;
+  if (reduction.preset == Preset::tuned) {
+    // Affine frames with the modes and pressures of the heart itself.
+    reduction.enrichment.emplace();
+    reduction.pressure_space = PressureSpace::segment;
+    reduction.border_functions = false;
+  }
   if (!reduction.enrichment) {
     Words words = fast ? Words{"tt", "lt"} : Words{"tt", "lt", "ct", "ltt", "ttt", "ll"};
     if (contrast) words.insert(words.end(), {"lc", "cc"});

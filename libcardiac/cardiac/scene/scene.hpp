@@ -17,7 +17,7 @@ namespace cardiac::scene {
 using Vector3 = std::array<double, 3>;
 
 enum class Method { polyaffine, fem };
-enum class Preset { fast, accurate };
+enum class Preset { fast, accurate, tuned };
 enum class Weights { sigmoid, tents };
 enum class PressureSpace { none, segment, segment_depth, segment_linear, segment_bilinear };
 enum class Axes { heart, cartesian, automatic };
@@ -37,6 +37,8 @@ struct Reduction {
   std::optional<std::vector<double>> ring_angles_deg;  ///< rotational, of each ring's first node
   Integration integration = Integration::cells;
   int element_order = 2;  ///< of the full-order model
+  double accuracy_percent = 1;  ///< from here on: of the tuned preset; of displacement against full order
+  double budget_s = 900;        ///< time that its training may take
 };
 
 enum class TissueLaw { guccione, holzapfel_ogden, neo_hookean, mooney_rivlin, saint_venant_kirchhoff };

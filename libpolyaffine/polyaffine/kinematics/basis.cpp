@@ -38,6 +38,8 @@ Lift surface_lift(const BasisSample& s, const Vec3& X_xi, const Vec3& X_eta) {
   return L;
 }
 
+using ModeRows = Eigen::Matrix<double, 9, 3>;  // a column of the field for each of three modes
+
 // What a kind of table writes for one function, d numbers `stride` apart (d_local for a function in local
 // axes), and the lift that leads from the sums over such functions to the field.
 struct RowKind {
@@ -47,6 +49,7 @@ struct RowKind {
   virtual void fill(double N, const Vec3& g, int point, bool local, double* rows,
                     Eigen::Index stride) const = 0;
   virtual Lift lift(const BasisSample& s, int point) const = 0;
+  virtual ModeRows modes(const BasisSample::Modes& m, int point) const = 0;
 };
 
 struct GradientRows : RowKind {
@@ -56,6 +59,7 @@ struct GradientRows : RowKind {
     for (int J = 0; J < 3; ++J) rows[(J + (local ? 1 : 0)) * stride] = g[J];
   }
   Lift lift(const BasisSample& s, int) const override { return gradient_lift(s); }
+  ModeRows modes(const BasisSample::Modes& m, int) const override { return m.gradient; }
 };
 
 struct SurfaceRows : RowKind {
@@ -69,6 +73,16 @@ struct SurfaceRows : RowKind {
   Lift lift(const BasisSample& s, int point) const override {
     return surface_lift(s, points.X_xi.col(point), points.X_eta.col(point));
   }
+  ModeRows modes(const BasisSample::Modes& m, int point) const override {
+    ModeRows out;
+    out.topRows<3>() = m.value;
+    for (int k = 0; k < 3; ++k) {
+      const auto gradient = m.gradient.col(k).reshaped(3, 3);
+      out.col(k).segment<3>(3) = gradient * points.X_xi.col(point);
+      out.col(k).tail<3>() = gradient * points.X_eta.col(point);
+    }
+    return out;
+  }
 };
 
 struct ValueRows : RowKind {
@@ -78,6 +92,11 @@ struct ValueRows : RowKind {
     Lift L = Lift::Zero(9, 9);
     L.topLeftCorner<3, 3>() = s.Q;
     return L;
+  }
+  ModeRows modes(const BasisSample::Modes& m, int) const override {
+    ModeRows out = ModeRows::Zero();
+    out.topRows<3>() = m.value;
+    return out;
   }
 };
 
@@ -102,6 +121,21 @@ FunctionGroup make_group(const std::vector<BasisSample>& samples, const std::vec
   return group;
 }
 
+FunctionGroup make_mode_group(const std::vector<BasisSample>& samples, const std::vector<int>& functions,
+                              int first, const RowKind& kind) {
+  FunctionGroup group;
+  group.functions = functions;
+  group.d = 9;
+  const auto count = static_cast<Eigen::Index>(samples.size());
+  group.modes = Matrix::Zero(3 * std::ssize(functions), 9 * count);
+  for (Eigen::Index q = 0; q < count; ++q)
+    for (const auto& m : samples[static_cast<std::size_t>(q)].modes) {
+      const auto at = std::ranges::lower_bound(functions, m.function) - functions.begin();
+      group.modes.block<3, 9>(3 * at, 9 * q) = kind.modes(m, first + static_cast<int>(q)).transpose();
+    }
+  return group;
+}
+
 FieldTable make_table(const Basis& basis, const std::vector<int>& tet, const Eigen::Matrix4Xd& barycentric,
                       const Vector& weights, const std::vector<int>& starts, const RowKind& kind) {
   FieldTable table;
@@ -110,16 +144,19 @@ FieldTable make_table(const Basis& basis, const std::vector<int>& tet, const Eig
   for (std::size_t k = 0; k + 1 < starts.size(); ++k) {
     PointBlock block{starts[k], starts[k + 1] - starts[k], {}};
     std::vector<BasisSample> samples;
-    std::vector<int> plain, local;
+    std::vector<int> plain, local, modes;
     for (int q = block.first; q < block.first + block.count; ++q) {
       samples.push_back(basis.sample(tet[q], barycentric.col(q)));
       for (const int f : samples.back().functions) (basis.in_local_axes(f) ? local : plain).push_back(f);
+      for (const auto& m : samples.back().modes) modes.push_back(m.function);
     }
-    for (auto* functions : {&plain, &local}) {
+    for (auto* functions : {&plain, &local, &modes}) {
       std::sort(functions->begin(), functions->end());
       functions->erase(std::unique(functions->begin(), functions->end()), functions->end());
-      if (!functions->empty())
-        block.groups.push_back(make_group(samples, *functions, block.first, functions == &local, kind));
+      if (functions->empty()) continue;
+      block.groups.push_back(
+          functions == &modes ? make_mode_group(samples, modes, block.first, kind)
+                              : make_group(samples, *functions, block.first, functions == &local, kind));
     }
     table.blocks.push_back(std::move(block));
   }
@@ -160,7 +197,7 @@ FieldTable displacement_table(const Basis& basis, const WallPoints& points) {
 
 DisplacementMap::DisplacementMap(const Basis& basis, const std::vector<int>& tet,
                                  const Eigen::Matrix4Xd& barycentric)
-    : num_functions_(basis.num_functions()), start_{0} {
+    : num_functions_(basis.num_functions()), start_{0}, mode_start_{0} {
   bool any_local = false;
   for (std::size_t p = 0; p < tet.size(); ++p) {
     const BasisSample s = basis.sample(tet[p], barycentric.col(static_cast<Eigen::Index>(p)));
@@ -172,6 +209,11 @@ DisplacementMap::DisplacementMap(const Basis& basis, const std::vector<int>& tet
     }
     start_.push_back(static_cast<int>(functions_.size()));
     axes_.push_back(s.Q);
+    for (const auto& m : s.modes) {
+      mode_functions_.push_back(m.function);
+      modes_.push_back(m.value);
+    }
+    mode_start_.push_back(static_cast<int>(modes_.size()));
   }
   if (!any_local) axes_.clear();
 }
@@ -184,6 +226,8 @@ Points DisplacementMap::apply(const Vector& c) const {
     Vec3 local = Vec3::Zero();
     for (int k = start_[p]; k < start_[p + 1]; ++k)
       (local_[k] ? local : plain) += N_[k] * c.segment<3>(3 * functions_[k]);
+    for (int k = mode_start_[p]; k < mode_start_[p + 1]; ++k)
+      plain += modes_[k] * c.segment<3>(3 * mode_functions_[k]);
     u.col(p) = axes_.empty() ? plain : Vec3(plain + axes_[p] * local);
   }
   return u;
@@ -196,6 +240,8 @@ Vector DisplacementMap::transpose(const Points& forces) const {
     const Vec3 in_axes = axes_.empty() ? f : Vec3(axes_[p].transpose() * f);
     for (int k = start_[p]; k < start_[p + 1]; ++k)
       out.segment<3>(3 * functions_[k]) += N_[k] * (local_[k] ? in_axes : f);
+    for (int k = mode_start_[p]; k < mode_start_[p + 1]; ++k)
+      out.segment<3>(3 * mode_functions_[k]) += modes_[k].transpose() * f;
   }
   return out;
 }

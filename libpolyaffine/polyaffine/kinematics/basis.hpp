@@ -11,15 +11,24 @@ namespace polyaffine {
 /// The functions that do not vanish at one point. Functions in local axes give u = Q Σ c_a N_a with the axes
 /// Q(X) (columns) and dQ[J] = ∂Q/∂X_J; all functions of a point share the same Q.
 struct BasisSample {
+  /// Three vector functions that share one vector coefficient: u = [m_1 m_2 m_3] c.
+  struct Modes {
+    int function = 0;
+    Mat3 value;                            ///< columns m_k
+    Eigen::Matrix<double, 9, 3> gradient;  ///< columns ∇m_k, column-major, 1/mm
+  };
+
   std::vector<int> functions;
   Vector N;
   Points gradient;  ///< ∇N_a, 3 × functions, 1/mm
   Mat3 Q = Mat3::Identity();
   std::array<Mat3, 3> dQ{Mat3::Zero(), Mat3::Zero(), Mat3::Zero()};
+  std::vector<Modes> modes;  ///< numbered as the functions are
 };
 
-/// A set of scalar shape functions over a tetrahedral mesh: u(X) = Σ_a c_a N_a(X), or Q(X) Σ_a c_a N_a(X) for
-/// the functions in local axes. Finite elements and reduced frames are such sets.
+/// A set of shape functions with vector coefficients over a tetrahedral mesh: u(X) = Σ_a c_a N_a(X), Q(X) Σ_a
+/// c_a N_a(X) for the functions in local axes, or Σ_a [m_a1 m_a2 m_a3] c_a for modes, vector functions of
+/// which three make one. Finite elements and reduced frames are such sets.
 class Basis {
  public:
   virtual ~Basis() = default;
@@ -47,8 +56,8 @@ struct SurfacePoints {
   std::vector<int> starts;
 };
 
-/// The deformation gradient F = I + Σ c_a ⊗ ∇N_a (with local axes: I + Q Σ c_a ⊗ ∇N_a + ∂Q·Σ c_a N_a) at the
-/// points.
+/// The deformation gradient F = I + Σ c_a ⊗ ∇N_a (with local axes: I + Q Σ c_a ⊗ ∇N_a + ∂Q·Σ c_a N_a; of
+/// modes I + Σ_k c_ak ∇m_ak) at the points.
 FieldTable deformation_table(const Basis& basis, const WallPoints& points);
 
 /// M = [x − origin, x_ξ, x_η] on a surface. With SignedVolume of factor 1/3 it integrates to the volume
@@ -76,6 +85,8 @@ class DisplacementMap {
   std::vector<double> N_;
   std::vector<char> local_;
   std::vector<Mat3> axes_;
+  std::vector<int> mode_start_, mode_functions_;
+  std::vector<Mat3> modes_;
 };
 
 }  // namespace polyaffine

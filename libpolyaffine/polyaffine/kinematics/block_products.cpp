@@ -12,7 +12,7 @@ using Group = PackedBlock::Group;
 // The points of this many packs are multiplied at once: their rows stay in the cache of the first level.
 constexpr int kChunkPacks = 4;
 
-// Most numbers that a group's coordinates vec(3×d) take: d ≤ 4.
+// Most numbers that a group's coordinates vec(3×d) take: d ≤ 4 (of modes nine).
 constexpr int kMostCoordinates = 12;
 
 // One a thread, because blocks are many and small: its memory is used again.
@@ -29,13 +29,14 @@ struct Strides {
 // Y = LᵀX at one pack, for X 9 × columns and Y 3d × columns. The block (J, e) of the lift L, 3 × 3, leads
 // from column e of the group's coordinates to column J of the field.
 void pull_back_columns(const Group& g, int pack, const Pack* X, Strides x, int columns, Pack* Y, Strides y) {
+  if (!g.lifted) {
+    for (int row = 0; row < 9; ++row)
+      for (int c = 0; c < columns; ++c) Y[row * y.row + c * y.column] = X[row * x.row + c * x.column];
+    return;
+  }
   for (int e = 0; e < g.d; ++e)
     for (int k = 0; k < 3; ++k) {
       const int row = k + 3 * e;
-      if (!g.lifted) {
-        for (int c = 0; c < columns; ++c) Y[row * y.row + c * y.column] = X[row * x.row + c * x.column];
-        continue;
-      }
       for (int c = 0; c < columns; ++c) Y[row * y.row + c * y.column] = Pack{};
       for (int J = 0; J < 3; ++J) {
         if (g.place[J][e] < 0) continue;  // a block of zeros
@@ -48,11 +49,16 @@ void pull_back_columns(const Group& g, int pack, const Pack* X, Strides x, int c
     }
 }
 
-// T = L_gᵀ A L_h at one pack, 3d_g × 3d_h by columns; A with both triangles.
+// Numbers of the coordinates of a group: vec(3×d), or the nine of modes.
+int coordinates(const Group& g) {
+  return g.components * g.d;
+}
+
+// T = L_gᵀ A L_h at one pack, a column a coordinate of h; A with both triangles.
 void pull_back_tangent(const Group& g, const Group& h, int pack, const PackResponse& r, Pack* T) {
   Pack half[kMostCoordinates * 9];  // L_hᵀ A, by rows of nine
   pull_back_columns(h, pack, r.A[0], {1, 9}, 9, half, {9, 1});
-  pull_back_columns(g, pack, half, {1, 9}, 3 * h.d, T, {1, 3 * g.d});
+  pull_back_columns(g, pack, half, {1, 9}, coordinates(h), T, {1, coordinates(g)});
 }
 
 // The stiffness between the functions a of group g and b of group h, whose points q carry rows r_f(a, q) and
@@ -62,14 +68,14 @@ void pull_back_tangent(const Group& g, const Group& h, int pack, const PackRespo
 //     e), W_ij(a, k)  = Σ_f r_f(a, q) T_q(i + 3f, j + 3e),        R(b, k) = r_e(b, q).
 //
 // The W_ij of all pairs stand below each other as the rows of one TileProduct: functions a of pair s in the
-// row packs s · packs and on.
+// row packs s · packs and on. Modes have one component (i or j = 0), and f or e runs over nine numbers.
 class GroupStiffness {
  public:
   GroupStiffness(const PackedBlock& block, const Group& g, const Group& h)
       : block_(block), g_(g), h_(h), same_(&g == &h), packs_(g.padded / kLanes) {
     // K is symmetric: within one group the pairs with i > j are those with i < j mirrored.
-    for (int i = 0; i < 3; ++i)
-      for (int j = same_ ? i : 0; j < 3; ++j) pairs_.push_back({i, j});
+    for (int i = 0; i < g.components; ++i)
+      for (int j = same_ ? i : 0; j < h.components; ++j) pairs_.push_back({i, j});
   }
 
   // W Rᵀ for the tangents of the block's packs.
@@ -86,10 +92,12 @@ class GroupStiffness {
       for (int slot = 0; slot < count; ++slot) {
         pull_back_tangent(g_, h_, begin + slot, responses[begin + slot], T);
         const auto* numbers = reinterpret_cast<const double*>(T);
-        if (g_.d == 4)
-          fill_rows<4>(begin + slot, slot, numbers, product);
+        if (g_.components == 1)
+          fill_rows<1, 9>(begin + slot, slot, numbers, product);
+        else if (g_.d == 4)
+          fill_rows<3, 4>(begin + slot, slot, numbers, product);
         else
-          fill_rows<3>(begin + slot, slot, numbers, product);
+          fill_rows<3, 3>(begin + slot, slot, numbers, product);
       }
       product.multiply(h_.by_point.data() + static_cast<std::ptrdiff_t>(h_.padded) * h_.d * kLanes * begin,
                        h_.padded);
@@ -106,8 +114,8 @@ class GroupStiffness {
           const double* v = product.entries(s * packs_ + pack, b);
           const int first = kLanes * pack, last = std::min(first + kLanes, g_.num_functions);
           for (int a = symmetric ? std::max(first, b) : first; a < last; ++a) {
-            K(row0 + 3 * a + i, col0 + 3 * b + j) = v[a - first];
-            K(col0 + 3 * b + j, row0 + 3 * a + i) = v[a - first];
+            const int row = row0 + g_.components * a + i, col = col0 + h_.components * b + j;
+            K(row, col) = K(col, row) = v[a - first];
           }
         }
     }
@@ -122,7 +130,7 @@ class GroupStiffness {
   bool is_symmetric(const Pair& pair) const { return same_ && pair.i == pair.j; }
 
   // Writes W_ij of every pair at the points of pack `pack`, the `slot`-th of the chunk.
-  template <int d>
+  template <int components, int d>
   void fill_rows(int pack, int slot, const double* T, TileProduct& product) const {
     const int packs = packs_;  // stores could change the member, for all the compiler knows
     for (int lane = 0; lane < kLanes; ++lane) {
@@ -131,13 +139,14 @@ class GroupStiffness {
       for (int s = 0; s < num_pairs(); ++s)
         for (int e = 0; e < h_.d; ++e) {
           const int k = (kLanes * slot + lane) * h_.d + e;
-          const double* T_ij = T + (pairs_[s].i + 3 * d * (pairs_[s].j + 3 * e)) * kLanes + lane;
+          const double* T_ij =
+              T + (pairs_[s].i + components * d * (pairs_[s].j + h_.components * e)) * kLanes + lane;
           Pack t[d];
-#pragma GCC unroll 4
-          for (int f = 0; f < d; ++f) t[f] = broadcast(T_ij[3 * f * kLanes]);
+#pragma GCC unroll 9
+          for (int f = 0; f < d; ++f) t[f] = broadcast(T_ij[components * f * kLanes]);
           for (int a = 0; a < packs; ++a) {
             Pack out = t[0] * load(rows + a * kLanes);
-#pragma GCC unroll 3
+#pragma GCC unroll 8
             for (int f = 1; f < d; ++f) out += t[f] * load(rows + (f * packs + a) * kLanes);
             store(product.row(s * packs + a, k), out);
           }
@@ -162,8 +171,8 @@ void fill_force_rows(const Group& g, int pack, int slot, const Mat3Pack& S, cons
   for (int lane = 0; lane < kLanes; ++lane) {
     const double* at = values.col(kLanes * pack + lane).data();
     for (int e = 0; e < g.d; ++e)
-      for (int i = 0; i < 3; ++i) {
-        const Pack y = broadcast(Y[i + 3 * e][lane]);
+      for (int i = 0; i < g.components; ++i) {
+        const Pack y = broadcast(Y[i + g.components * e][lane]);
         for (int b = 0; b < packs; ++b)
           store(product.row(i * packs + b, (kLanes * slot + lane) * g.d + e), y * load(at + b * kLanes));
       }
@@ -184,9 +193,9 @@ void block_stiffness(const PackedBlock& block, const PackResponse* responses, Ma
       const GroupStiffness stiffness(block, groups[g], groups[h]);
       stiffness.multiply(responses, product);
       stiffness.write(product, row0, col0, K);
-      col0 += 3 * groups[h].num_functions;
+      col0 += groups[h].num_unknowns();
     }
-    row0 += 3 * groups[g].num_functions;
+    row0 += groups[g].num_unknowns();
   }
 }
 
@@ -199,8 +208,8 @@ void block_force_rows(const PackedBlock& block, const Mat3Pack* S, const Matrix&
   TileProduct& product = workspace();
   int first = 0;
   for (const auto& g : block.groups()) {
-    product.start(3 * packs, g.padded);
-    for (int s = 0; s < 3 * packs; ++s) product.need_column(s, g.num_functions - 1);
+    product.start(g.components * packs, g.padded);
+    for (int s = 0; s < g.components * packs; ++s) product.need_column(s, g.num_functions - 1);
     for (int begin = 0; begin < block.num_packs(); begin += kChunkPacks) {
       const int count = std::min(kChunkPacks, block.num_packs() - begin);
       product.start_chunk(count * kLanes * g.d);
@@ -210,10 +219,10 @@ void block_force_rows(const PackedBlock& block, const Mat3Pack* S, const Matrix&
                        g.padded);
     }
     for (int a = 0; a < g.num_functions; ++a)
-      for (int i = 0; i < 3; ++i)
+      for (int i = 0; i < g.components; ++i)
         for (int b = 0; b < n; ++b)
-          rows(b, first + 3 * a + i) = product.entries(i * packs + b / kLanes, a)[b % kLanes];
-    first += 3 * g.num_functions;
+          rows(b, first + g.components * a + i) = product.entries(i * packs + b / kLanes, a)[b % kLanes];
+    first += g.num_unknowns();
   }
 }
 

@@ -26,7 +26,10 @@ void add_field(const PointBlock& block, const Matrix& coefficients, double* fiel
   int a0 = 0;
   for (const auto& g : block.groups) {
     const int n = static_cast<int>(g.functions.size());
-    if (g.lift.empty()) {
+    if (g.is_modes()) {
+      Eigen::Map<Vector>(field, 9 * block.count).noalias() +=
+          g.modes.transpose() * coefficients.middleCols(a0, n).reshaped();
+    } else if (g.lift.empty()) {
       Eigen::Map<Matrix>(field, 3, 3 * block.count).noalias() += coefficients.middleCols(a0, n) * g.rows;
     } else {
       const Matrix Y = coefficients.middleCols(a0, n) * g.rows;
@@ -42,7 +45,9 @@ void add_field_transpose(const PointBlock& block, const double* S, Matrix& force
   int a0 = 0;
   for (const auto& g : block.groups) {
     const int n = static_cast<int>(g.functions.size());
-    if (g.lift.empty()) {
+    if (g.is_modes()) {
+      force.middleCols(a0, n).reshaped() += g.modes * Eigen::Map<const Vector>(S, 9 * block.count);
+    } else if (g.lift.empty()) {
       force.middleCols(a0, n).noalias() +=
           Eigen::Map<const Matrix>(S, 3, 3 * block.count) * g.rows.transpose();
     } else {

@@ -11,7 +11,8 @@ namespace polyaffine {
 /// Point q of the block carries d rows per function (for instance the three components of ∇N_a), stored as
 /// the columns [d·q, d·q + d) of `rows`. With coefficients c_a the functions form the 3×d matrix Y_q = Σ_a
 /// c_a ⊗ row_a. Without lift d = 3 and Y_q itself is added to the field; with lift (functions in local axes)
-/// vec(Y_q) is first mapped by the 9×3d matrix lift[q].
+/// vec(Y_q) is first mapped by the 9×3d matrix lift[q]. A group of modes has no rows: function a adds
+/// Σ_k c_ak m_ak, nine numbers m_ak for each of its three modes.
 struct FunctionGroup {
   using Lift = Eigen::Matrix<double, 9, Eigen::Dynamic, Eigen::ColMajor, 9, 12>;
 
@@ -19,6 +20,9 @@ struct FunctionGroup {
   int d = 3;
   Matrix rows;             ///< functions × (d · points)
   std::vector<Lift> lift;  ///< empty, or one a point
+  Matrix modes;  ///< of modes only, d = 9: (3 · functions) × (9 · points), row 3a + k for m_ak
+
+  bool is_modes() const { return modes.size() > 0; }
 };
 
 /// Consecutive points [first, first + count) that see the same functions.

@@ -49,14 +49,16 @@ void pack_lifts(const FunctionGroup& g, const PointBlock& block, int packs, Grou
 Group pack_group(const FunctionGroup& g, const PointBlock& block, int packs) {
   Group out;
   out.d = g.d;
-  out.num_functions = static_cast<int>(g.functions.size());
+  const Matrix& rows = g.is_modes() ? g.modes : g.rows;
+  out.components = g.is_modes() ? 1 : 3;
+  out.num_functions = static_cast<int>(rows.rows());
   out.padded = (out.num_functions + 3) / 4 * 4;
   out.lifted = !g.lift.empty();
   out.by_point = Matrix::Zero(out.padded, g.d * kLanes * packs);
   for (int p = 0; p < packs; ++p)
     for (int lane = 0; lane < kLanes; ++lane)
       out.by_point.block(0, g.d * (kLanes * p + lane), out.num_functions, g.d) =
-          g.rows.middleCols(g.d * point_of(block, p, lane), g.d);
+          rows.middleCols(g.d * point_of(block, p, lane), g.d);
   for (int p = 0; p < packs; ++p)
     for (int a = 0; a < out.num_functions; ++a)
       for (int e = 0; e < g.d; ++e)
@@ -96,7 +98,15 @@ void add_pack(const Group& g, int p, const double* c, Mat3Pack& M) {
     }
 }
 
+void add_modes(const Group& g, int p, const double* c, Mat3Pack& M) {
+  const double* rows = g.by_pack.data() + static_cast<std::ptrdiff_t>(p) * g.num_functions * 9 * kLanes;
+  for (int m = 0; m < g.num_functions; ++m, rows += 9 * kLanes)
+#pragma GCC unroll 9
+    for (int e = 0; e < 9; ++e) M.m[e] += c[m] * load(rows + e * kLanes);
+}
+
 void add_pack(const Group& g, int p, const double* c, Mat3Pack& M) {
+  if (g.components == 1) return add_modes(g, p, c, M);
   (g.d == 4 ? add_pack<4> : add_pack<3>)(g, p, c, M);
 }
 
@@ -119,6 +129,20 @@ void force_of_group(const Group& g, int packs, const Mat3Pack* S, double* force)
       }
   }
   for (int i = 0; i < 3 * g.num_functions; ++i) force[i] = sum(load(total.data() + i * kLanes));
+}
+
+void force_of_modes(const Group& g, int packs, const Mat3Pack* S, double* force) {
+  thread_local std::vector<double> total;
+  total.assign(static_cast<std::size_t>(g.num_functions * kLanes), 0.0);
+  const double* rows = g.by_pack.data();
+  for (int p = 0; p < packs; ++p)
+    for (int m = 0; m < g.num_functions; ++m, rows += 9 * kLanes) {
+      Pack s = load(total.data() + m * kLanes);
+#pragma GCC unroll 9
+      for (int e = 0; e < 9; ++e) s += load(rows + e * kLanes) * S[p].m[e];
+      store(total.data() + m * kLanes, s);
+    }
+  for (int m = 0; m < g.num_functions; ++m) force[m] = sum(load(total.data() + m * kLanes));
 }
 
 }  // namespace
@@ -160,7 +184,7 @@ void PackedBlock::field(const Vector& c, bool with_base, Mat3Pack* M) const {
     const double* at = own.data();
     for (const auto& g : groups_) {
       add_pack(g, p, at, M[p]);
-      at += 3 * static_cast<std::ptrdiff_t>(g.num_functions);
+      at += g.num_unknowns();
     }
   }
 }
@@ -176,7 +200,7 @@ void PackedBlock::field_and_rate(const Vector& c, const Vector& rate, Mat3Pack* 
     for (const auto& g : groups_) {
       add_pack(g, p, own.data() + at, M[p]);
       add_pack(g, p, own_rate.data() + at, M_rate[p]);
-      at += 3 * static_cast<std::ptrdiff_t>(g.num_functions);
+      at += g.num_unknowns();
     }
   }
 }
@@ -185,8 +209,10 @@ void PackedBlock::force(const Mat3Pack* S, Matrix& out) const {
   out.resize(3, static_cast<Eigen::Index>(functions_.size()));
   double* at = out.data();
   for (const auto& g : groups_) {
-    (g.d == 4 ? force_of_group<4> : force_of_group<3>)(g, num_packs(), S, at);
-    at += 3 * static_cast<std::ptrdiff_t>(g.num_functions);
+    (g.components == 1 ? force_of_modes
+     : g.d == 4        ? force_of_group<4>
+                       : force_of_group<3>)(g, num_packs(), S, at);
+    at += g.num_unknowns();
   }
 }
 

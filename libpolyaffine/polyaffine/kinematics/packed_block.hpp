@@ -12,8 +12,11 @@ namespace polyaffine {
 /// where points are missing; those lanes have weight zero.
 class PackedBlock {
  public:
+  /// Scalar functions with three components each, or modes with one (then num_functions counts modes, and
+  /// d = 9 numbers of a mode are its part of the field).
   struct Group {
     int d = 3;
+    int components = 3;
     int num_functions = 0;
     int padded = 0;       ///< functions, rounded up to a multiple of four
     bool lifted = false;  ///< the lift is not the identity
@@ -26,6 +29,7 @@ class PackedBlock {
     Matrix by_point;
     /// Entry (i, j) of stored block b of pack p: kLanes numbers from ((p · stored + b) 9 + i + 3j) kLanes.
     std::vector<double> lift;
+    int num_unknowns() const { return components * num_functions; }
     const double* lift_block(int pack, int J, int e) const {
       return lift.data() + (static_cast<std::ptrdiff_t>(pack) * stored + place[J][e]) * 9 * kLanes;
     }
@@ -61,7 +65,7 @@ class PackedBlock {
 };
 
 /// S pulled back to the coordinates vec(3×d) of a group at one pack, Y = LᵀS: entry k of column e has index
-/// k + 3e.
+/// k + 3e. Of modes Y is S.
 void pull_back(const PackedBlock::Group& group, int pack, const Mat3Pack& S, Pack* Y);
 
 }  // namespace polyaffine

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include <polyaffine/core/types.hpp>
 #include <polyaffine/quadrature/moment_compression.hpp>
 
@@ -14,6 +16,8 @@ class CubatureTraining {
   explicit CubatureTraining(Eigen::Index candidates);
   /// Whether there is nothing to keep yet.
   bool empty() const { return norm_ == 0; }
+  /// ‖targets‖ over all integrals.
+  double norm() const { return std::sqrt(norm_); }
   /// Integrals to keep: row i of `contributions` holds what each candidate adds to integral i with its own
   /// weight, `target` what they shall sum to; `dual` = N [contributions, target] with the symmetric positive
   /// semidefinite matrix N of the norm.

@@ -42,8 +42,9 @@ WeightConditions integration_constraint(const FieldTable& table, const Points& b
       Vector::Constant(table.num_unknowns(), boundary_integrals.colwise().norm().maxCoeff())};
   for (const PointBlock& block : table.blocks)
     for (const FunctionGroup& group : block.groups) {
-      if (!group.lift.empty())
-        throw std::invalid_argument("integration constraint: expected functions without local axes");
+      if (!group.lift.empty() || group.is_modes())
+        throw std::invalid_argument(
+            "integration constraint: expected functions without local axes and no modes");
       for (std::size_t a = 0; a < group.functions.size(); ++a)
         out.A.block(3 * group.functions[a], block.first, 3, block.count) =
             group.rows.row(static_cast<Eigen::Index>(a)).reshaped(3, block.count);

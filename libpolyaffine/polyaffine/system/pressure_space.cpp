@@ -46,6 +46,7 @@ Vector dilatation(const PressureSpace& space, const FieldTable& table, const Vec
 }
 
 Vector pressure_mass(const PressureSpace& space, const FieldTable& table, const Vector& p) {
+  if (space.mass.size() > 0) return space.mass * p;
   Vector out = Vector::Zero(space.num_functions);
   for (std::size_t k = 0; k < table.blocks.size(); ++k) {
     const auto& [functions, values] = space.blocks[k];
@@ -57,7 +58,12 @@ Vector pressure_mass(const PressureSpace& space, const FieldTable& table, const 
 }
 
 InverseMass::InverseMass(const PressureSpace& space, const FieldTable& table)
-    : local_(every_function_in_one_block(space)) {
+    : local_(space.mass.size() == 0 && every_function_in_one_block(space)) {
+  if (space.mass.size() > 0) {
+    half_ = inverse_factor(space.mass);
+    dense_ = half_.transpose() * half_;
+    return;
+  }
   if (!local_) dense_ = Matrix::Zero(space.num_functions, space.num_functions);
   for (std::size_t k = 0; k < space.blocks.size(); ++k) {
     const auto& block = space.blocks[k];

@@ -25,6 +25,7 @@ struct PressureSpace {
   bool incompressible = false;
   int num_functions = 0;
   std::vector<Block> blocks;  ///< one for each block of the table
+  Matrix mass = {};           ///< M where it is known better than by the points of the table; else empty
 };
 
 /// g_b = Σ_q w_q Ψ_b (J − 1) of the determinants at all points.

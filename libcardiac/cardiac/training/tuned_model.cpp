@@ -1,0 +1,226 @@
+#include "cardiac/training/tuned_model.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include <polyaffine/core/error.hpp>
+#include <polyaffine/solve/load_stepping.hpp>
+
+namespace cardiac {
+
+using polyaffine::Matrix;
+using polyaffine::Vector;
+
+namespace {
+
+constexpr int kCandidates = 3000;
+// Shares of the accuracy (of displacement in L2, where a tolerance is of its gradient).
+constexpr double kPathShare = 0.3, kNeighbourShare = 3, kPressureShare = 2, kRuleShare = 0.5;
+constexpr double kRefinement = 0.6;  // of the tolerances, from round to round
+
+// How different two loads are, in pressure and tension over the largest of the plan.
+class LoadDistance {
+ public:
+  LoadDistance(const std::vector<TrainingLoad>& loads, const Ventricle& ventricle) : ventricle_(ventricle) {
+    for (const TrainingLoad& load : loads) {
+      if (load.pressures_kPa.size() > 0)
+        pressure_ = std::max(pressure_, load.pressures_kPa.cwiseAbs().maxCoeff());
+      tension_ = std::max(tension_, mean_tension(load));
+    }
+  }
+  double operator()(const TrainingLoad& a, const TrainingLoad& b) const {
+    double sum = std::abs(mean_tension(a) - mean_tension(b)) / tension_;
+    for (Eigen::Index k = 0; k < a.pressures_kPa.size(); ++k)
+      sum += std::abs(a.pressures_kPa[k] - b.pressures_kPa[k]) / pressure_;
+    return sum + (a.regions.empty() == b.regions.empty() ? 0 : 1);
+  }
+
+ private:
+  double mean_tension(const TrainingLoad& load) const {
+    return ventricle_.contraction ? load.level * ventricle_.contraction->tension(load.clock_ms).mean() : 0;
+  }
+  const Ventricle& ventricle_;
+  double pressure_ = 1e-9, tension_ = 1e-9;
+};
+
+struct Comparison {
+  double displacement = 0, volume = 0, best = 0;  // relative
+};
+
+class Tuning {
+ public:
+  Tuning(const std::shared_ptr<const Anatomy>& anatomy, const Scene& scene, const TuningPlan& plan,
+         const TuningControl& control)
+      : plan_(plan),
+        control_(control),
+        full_(anatomy, scene),
+        modes_(*anatomy, scene),
+        plain_(full_.ventricle({})),
+        distance_(plan.path, plain_) {}
+
+  TunedModel run() {
+    solve_path();
+    add_linear_answers();
+    const double accuracy = control_.accuracy_percent / 100;
+    HeartModes::Options options{kPathShare * accuracy, kNeighbourShare * accuracy, kPressureShare * accuracy,
+                                60};
+    double rule = kRuleShare * accuracy;
+    TunedModel model;
+    for (int round = 0;; ++round) {
+      build(options, rule, round, model);
+      const TuningRound found = hold_against(plan_.held_out(round), model, round);
+      model.rounds.push_back(found);
+      if (control_.on_round) control_.on_round(found);
+      model.reached = found.displacement_percent <= control_.accuracy_percent;
+      const double a_round = found.seconds / (round + 1);
+      if (model.reached || found.seconds + a_round > control_.budget_s) return model;
+      // What the space itself does not hold asks for modes, the rest for points.
+      if (found.best_percent > 0.4 * found.displacement_percent) {
+        options.tolerance *= kRefinement;
+        options.neighbour_tolerance *= kRefinement;
+      } else {
+        rule *= kRefinement;
+        options.pressure_tolerance *= kRefinement;
+      }
+    }
+  }
+
+ private:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  }
+  void tell(const std::string& what) const {
+    if (control_.interrupted && control_.interrupted())
+      throw polyaffine::ComputationError("tuning: interrupted while " + what);
+    if (control_.progress) control_.progress(what, std::min(1.0, seconds() / control_.budget_s));
+  }
+
+  const FullState* nearest(const TrainingLoad& load) const {
+    const FullState* best = nullptr;
+    for (const FullState& s : path_)
+      if (!best || distance_(s.load, load) < distance_(best->load, load)) best = &s;
+    return best;
+  }
+
+  void solve_path() {
+    for (const TrainingLoad& load : plan_.path) {
+      tell("full order: " + load.name);
+      auto state = full_.solve(load, nearest(load));
+      if (state)
+        path_.push_back(std::move(*state));
+      else if (path_.empty())
+        throw polyaffine::ComputationError("tuning: the full-order model has no equilibrium under its first load, " +
+                                           load.name);
+    }
+  }
+
+  void add_linear_answers() {
+    for (const TuningPlan::Changes& changes : plan_.neighbours) {
+      const auto state =
+          std::ranges::find(path_, changes.of, [](const FullState& s) { return s.load.name; });
+      if (state == path_.end()) continue;
+      tell("answers of " + changes.of + " to changes of the segments");
+      for (FullState& answer : full_.linear_answers(*state, changes.regions))
+        neighbours_.push_back(std::move(answer));
+    }
+  }
+
+  void build(const HeartModes::Options& options, double rule_accuracy, int round, TunedModel& model) {
+    model.space = modes_.space(path_, neighbours_, options);
+    tell("points for " + std::to_string(model.space.num_modes) + " modes");
+    NestedRuleTraining training(full_, modes_, model.space, kCandidates);
+    for (const auto* states : {&path_, &neighbours_})
+      for (const FullState& state : *states) {
+        tell("round " + std::to_string(round + 1) + ": forces of " + state.load.name);
+        training.add(state);
+      }
+    tell("round " + std::to_string(round + 1) + ": choice of points");
+    const NestedRule rule = training.select(rule_accuracy);
+    const Discretisation& nested = training.nested();
+    model.wall = kept(nested.points, rule.wall);
+    model.cavities = nested.cavities;
+    for (std::size_t k = 0; k < rule.cavities.size(); ++k)
+      model.cavities[k].points = kept(nested.cavities[k].points, rule.cavities[k]);
+    model.epicardium = nested.epicardium_points;
+    model.pressure_mass = nested.pressure_mass;
+    metric_ = training.metric();
+  }
+
+  TuningRound hold_against(const std::vector<TrainingLoad>& loads, const TunedModel& model, int round) {
+    const Discretisation d = tuned_discretisation(*full_.anatomy(), full_.scene(), model);
+    TuningRound out;
+    out.modes = model.space.num_modes;
+    out.pressures = static_cast<int>(model.space.pressures.rows());
+    out.unknowns = d.num_unknowns;
+    out.points = static_cast<int>(d.points.tet.size());
+    for (const TrainingLoad& load : loads) {
+      tell("round " + std::to_string(round + 1) + ": held against " + load.name);
+      const auto found = compare(load, model, d);
+      if (!found) continue;
+      out.volume_percent = std::max(out.volume_percent, 100 * found->volume);
+      if (!out.worst.empty() && 100 * found->displacement <= out.displacement_percent) continue;
+      out.displacement_percent = 100 * found->displacement;
+      out.best_percent = 100 * found->best;
+      out.worst = load.name;
+    }
+    out.full_order_solves = full_.solves();
+    out.seconds = seconds();
+    return out;
+  }
+
+  // The model against full order under a load, which is then learned from. None where full order fails.
+  std::optional<Comparison> compare(const TrainingLoad& load, const TunedModel& model, const Discretisation& d) {
+    const Ventricle v = assemble_ventricle(full_.anatomy(), with_regions(full_.scene(), load), d);
+    const polyaffine::System system = loaded_ventricle(v, wall_load(v, load));
+    Vector c = Vector::Zero(v.num_coefficients());
+    const bool solved =
+        polyaffine::load_stepping(system, *system.make_linear(), c, {}).converged();
+    const auto& basis = dynamic_cast<const polyaffine::NestedBasis&>(*d.basis);
+    FullState start{load, basis.nodal(c), {}};
+    if (v.wall->pressure_space()) start.pressure = model.space.pressures.transpose() * v.wall->pressure(c);
+    auto state = full_.solve(load, solved ? &start : nearest(load));
+    if (!state) return std::nullopt;
+    Comparison out{1, 1, 1};
+    const double size = modes_.size(state->u);
+    if (solved) out.displacement = modes_.size(start.u - state->u) / size;
+    const Vector best = basis.nodal(modes_.nearest(model.space, metric_, state->u));
+    out.best = modes_.size(best - state->u) / size;
+    if (solved && !v.cavities.empty()) {
+      const Vector volumes = full_.ventricle(load).cavity_volumes(state->u);
+      out.volume = (v.cavity_volumes(c).cwiseQuotient(volumes).array() - 1).abs().maxCoeff();
+    }
+    (load.regions.empty() ? path_ : neighbours_).push_back(std::move(*state));
+    return out;
+  }
+
+  const TuningPlan& plan_;
+  const TuningControl& control_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  FullOrder full_;
+  HeartModes modes_;
+  Ventricle plain_;
+  LoadDistance distance_;
+  std::vector<FullState> path_, neighbours_;
+  Matrix metric_;
+};
+
+}  // namespace
+
+TunedModel tune(const std::shared_ptr<const Anatomy>& anatomy, const Scene& scene, const TuningPlan& plan,
+                const TuningControl& control) {
+  return Tuning(anatomy, scene, plan, control).run();
+}
+
+Discretisation tuned_discretisation(const Anatomy& anatomy, const Scene& scene, const TunedModel& model) {
+  Discretisation points;
+  points.points = model.wall;
+  points.cavities = model.cavities;
+  points.epicardium_points = model.epicardium;
+  Discretisation out = nested_discretisation(anatomy, scene, model.space, points);
+  out.pressure_mass = model.pressure_mass;
+  return out;
+}
+
+}  // namespace cardiac

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <cardiac/training/nested_rule.hpp>
+
+namespace cardiac {
+
+/// What a tuned model is learned from, besides its heart and scene.
+struct TuningPlan {
+  std::vector<TrainingLoad> path;  ///< what the scene asks; the first is raised from zero
+  /// Changes of the regions whose linear answers in a state of the path, by its name, are learned too.
+  struct Changes {
+    std::string of;
+    std::vector<scene::RegionOverride> regions;
+  };
+  std::vector<Changes> neighbours;
+  /// What the model of a round is held against, other loads each time.
+  std::function<std::vector<TrainingLoad>(int round)> held_out;
+};
+
+/// One round of a tuning: what the model was and how far off, in the worst of the loads held out.
+struct TuningRound {
+  int full_order_solves = 0, modes = 0, pressures = 0, unknowns = 0, points = 0;
+  double seconds = 0;  ///< since the tuning began
+  double displacement_percent = 0, volume_percent = 0, best_percent = 0;
+  std::string worst;  ///< the load
+};
+
+/// The reduced model that is learned once for a heart and its tissue: a space nested in the full-order model
+/// and few of its integration points, with new weights.
+struct TunedModel {
+  NestedSpace space;
+  polyaffine::WallPoints wall;
+  std::vector<CavitySurface> cavities;
+  polyaffine::SurfacePoints epicardium;
+  polyaffine::Matrix pressure_mass;
+  std::vector<TuningRound> rounds;  ///< the model is that of the last
+  bool reached = false;             ///< the accuracy that was asked for
+};
+
+/// How a tuning is bounded and watched.
+struct TuningControl {
+  double accuracy_percent = 1;  ///< of displacement (L2 over the wall) in every load held out
+  double budget_s = 900;        ///< no round begins later
+  std::function<void(const std::string& what, double fraction)> progress{};
+  std::function<void(const TuningRound&)> on_round{};
+  std::function<bool()> interrupted{};  ///< asked between full-order solves; true ends the tuning
+};
+
+/// Solves the full-order states of the plan, each continued from a neighbour, finds modes and points, holds
+/// the model against loads that it has not seen, learns from these too and goes on with finer tolerances
+/// until the accuracy is reached or the budget is spent. Throws ComputationError when the first load has no
+/// equilibrium or it was interrupted.
+TunedModel tune(const std::shared_ptr<const Anatomy>& anatomy, const Scene& scene, const TuningPlan& plan,
+                const TuningControl& control);
+
+/// The functions, points and surfaces of a tuned model.
+Discretisation tuned_discretisation(const Anatomy& anatomy, const Scene& scene, const TunedModel& model);
+
+}  // namespace cardiac
