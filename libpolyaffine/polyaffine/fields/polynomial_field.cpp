@@ -50,6 +50,10 @@ PolynomialField::PolynomialField(const Points& X, const Matrix& values, const Ve
   coefficients_ = Eigen::LDLT<Matrix>(A).solve(rhs).transpose();
 }
 
+bool PolynomialField::is_whole() const {
+  return degree_ >= 0 && degree_ <= kMostDegree && coefficients_.cols() == count_of(degree_);
+}
+
 PolynomialField::Functions PolynomialField::functions(const Vec3& X) const {
   const Vec3 x = (X - centre_).cwiseQuotient(half_);
   std::array<std::array<double, kMostDegree + 1>, 3> L, slope;

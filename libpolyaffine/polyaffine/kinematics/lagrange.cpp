@@ -40,6 +40,11 @@ LagrangeBasis::LagrangeBasis(const TetMesh& mesh, int order, const EdgeMidpoints
   }
 }
 
+bool LagrangeBasis::is_whole() const {
+  if ((order_ != 1 && order_ != 2) || elements_.rows() != (order_ == 1 ? 4 : 10)) return false;
+  return elements_.size() == 0 || (elements_.minCoeff() >= 0 && elements_.maxCoeff() < nodes_.cols());
+}
+
 // Numbers the edges as they are met, after the vertices.
 LagrangeBasis::EdgeNodes LagrangeBasis::add_edge_nodes(const TetMesh& mesh) {
   EdgeNodes edges;
