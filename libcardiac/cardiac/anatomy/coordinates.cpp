@@ -72,6 +72,13 @@ VentricularCoordinates::VentricularCoordinates(const polyaffine::TetMesh& mesh, 
   if (right_) right_->settle(mesh, labels, axis_, anterior_);
 }
 
+bool VentricularCoordinates::is_whole() const {
+  if (!space_ || !radial_ || radial_->num_components() != 3) return false;
+  const Eigen::Index n = space_->num_functions();
+  return space_->order() == 2 && t_.size() == n && slope_.size() == n && rest_.size() == n &&
+         (!right_ || right_->transventricular().size() == n);
+}
+
 Vec3 VentricularCoordinates::from_axis(const Vec3& X) const {
   const Vec3 d = X - base_centre_;
   return d - d.dot(axis_) * axis_;

@@ -20,6 +20,11 @@ struct SurfaceLabels {
   std::optional<int> rv_endo{};  ///< absent: no right ventricle
 };
 
+template <class Archive>
+void archive(Archive& a, SurfaceLabels& x) {
+  a(x.endo, x.epi, x.base, x.rv_endo);
+}
+
 struct AnatomyOptions {
   std::optional<polyaffine::Vec3> long_axis{};     ///< apex to base; absent: find_long_axis
   std::optional<polyaffine::Vec3> mitral_point{};  ///< mm, near the mitral of several openings
@@ -105,6 +110,17 @@ class VentricularCoordinates {
   polyaffine::Matrix axes() const;
 
  private:
+  friend class polyaffine::ArchiveAccess;
+  VentricularCoordinates() = default;
+  template <class Archive>
+  void archive(Archive& a) {
+    a(space_, long_axis_, axis_, base_centre_, anterior_, septal_, anterior_assumed_, cavity_length_,
+      arc_length_, least_steepness_, stretch_, right_, radial_, t_, slope_, rest_);
+    if constexpr (Archive::kReading)
+      if (!is_whole()) a.refuse("found ventricular coordinates whose parts do not fit each other");
+  }
+  bool is_whole() const;
+
   void orient_by(const AnatomyOptions& options);
   void orient(const polyaffine::Vec3& anterior);
   void find_insertions(const polyaffine::TetMesh& mesh);
