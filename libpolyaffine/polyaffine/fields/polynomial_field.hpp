@@ -36,10 +36,8 @@ class PolynomialField {
   bool is_whole() const;
 
   static constexpr int kMost = (kMostDegree + 1) * (kMostDegree + 2) * (kMostDegree + 3) / 6;
-  struct Functions {
-    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMost, 1> P;
-    Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kMost, 3> gradient;
-  };
+  /// A column a function: its value and its gradient.
+  using Functions = Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, kMost>;
   Functions functions(const Vec3& X) const;
 
   int degree_ = 0;
