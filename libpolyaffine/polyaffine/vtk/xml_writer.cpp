@@ -14,7 +14,7 @@ static_assert(std::endian::native == std::endian::little, "numbers are written a
 
 constexpr std::size_t kBlock = std::size_t{1} << 18U;
 // What a block is tried with, and the share of its bytes that must be saved to compress all of it.
-constexpr std::size_t kSample = 4096;
+constexpr std::size_t kSample = 1024;
 constexpr double kLeastSaving = 0.2;
 
 std::string deflated(std::string_view bytes, int level) {
