@@ -46,6 +46,11 @@ struct CoordinateSample {
   std::array<polyaffine::Mat3, 3> dQ;  ///< ∂Q/∂X_J
 };
 
+/// The coordinates alone.
+struct CoordinatePlace {
+  double u = 0, t = 0, psi = 0;  ///< as in CoordinateSample
+};
+
 /// Coordinates of a left ventricle, with quadratic elements on the curved wall. With a right ventricle they
 /// are those of the left wall and the septum and go on into the right free wall, which has its own (right()).
 ///
@@ -75,6 +80,9 @@ class VentricularCoordinates {
                          const AnatomyOptions& options);
 
   CoordinateSample sample(int tet, const polyaffine::Vec4& barycentric) const;
+  /// u, t and ψ of `sample`, the same to the last bit, without gradients and axes, which take most of its
+  /// time.
+  CoordinatePlace place(int tet, const polyaffine::Vec4& barycentric) const;
   /// The same with the depth and axes (Q; its derivatives are zero) of the right free wall; only with a right
   /// ventricle.
   CoordinateSample right_sample(int tet, const polyaffine::Vec4& barycentric) const;
