@@ -101,7 +101,7 @@ Anatomy with_fibres(const HeartMesh& heart, const Protocol& protocol, std::vecto
           mesh_path(protocol).string() + ": in " + std::to_string(std::lround(100 * share)) +
           " % of the tets its fibres of points are more than 40° apart: taken to turn by way of "
           "the circumferential direction; a finer mesh or fibres of tets say for sure");
-    anatomy.fibres = [fibres](const auto&... at) { return fibres->at(at...); };
+    anatomy.fibres = FileFibreFunction{fibres};
   } else if (has_fibres(heart.file)) {
     warnings.push_back(mesh_path(protocol).string() +
                        ": its fibres are not used: fibres.source is rule, expected file for them");

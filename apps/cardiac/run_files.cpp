@@ -38,13 +38,14 @@ void write_mesh_series(const Ventricle& ventricle, const Protocol& protocol, con
   Points fibres;
   if (protocol.fibres) fibres = tet_fibres(anatomy, *protocol.fibres);
   const std::vector<std::string> lcr{"longitudinal", "circumferential", "radial"};
-  polyaffine::WriteFields fields;
-  fields.integer_cell_fields["segment"] = anatomy.segment;
+  polyaffine::WriteFields constant, fields;
+  constant.integer_cell_fields["segment"] = anatomy.segment;
   fields.single = {"strain_lcr", "segment_strain_lcr", "fibre"};
   fields.components = {{"strain_lcr", lcr}, {"segment_strain_lcr", lcr}};
-  for (const SegmentInfo& segment : result.segments) fields.texts["segment_name"].push_back(segment.name);
+  for (const SegmentInfo& segment : result.segments) constant.texts["segment_name"].push_back(segment.name);
   if (ventricle.contraction)
-    fields.point_fields["activation_ms"] = ventricle.contraction->vertex_delay_ms.transpose();
+    constant.point_fields["activation_ms"] = ventricle.contraction->vertex_delay_ms.transpose();
+  const polyaffine::VtuSeries series(anatomy.mesh, constant);
   std::vector<double> times;
   std::vector<std::filesystem::path> files;
   for (std::size_t k = 0; k < path.outputs.size(); ++k) {
@@ -62,7 +63,7 @@ void write_mesh_series(const Ventricle& ventricle, const Protocol& protocol, con
     files.push_back(out / frame_name(k));
     times.push_back(path.outputs[k].time_ms);
     fields.values["time_ms"] = times.back();
-    polyaffine::write_vtu(files.back(), anatomy.mesh, fields);
+    series.write(files.back(), fields);
   }
   polyaffine::write_pvd(out / "heart.pvd", times, files);
 }

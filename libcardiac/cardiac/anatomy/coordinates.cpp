@@ -72,6 +72,13 @@ VentricularCoordinates::VentricularCoordinates(const polyaffine::TetMesh& mesh, 
   if (right_) right_->settle(mesh, labels, axis_, anterior_);
 }
 
+bool VentricularCoordinates::is_whole() const {
+  if (!space_ || !radial_ || radial_->num_components() != 3) return false;
+  const Eigen::Index n = space_->num_functions();
+  return space_->order() == 2 && t_.size() == n && slope_.size() == n && rest_.size() == n &&
+         (!right_ || right_->transventricular().size() == n);
+}
+
 Vec3 VentricularCoordinates::from_axis(const Vec3& X) const {
   const Vec3 d = X - base_centre_;
   return d - d.dot(axis_) * axis_;
@@ -99,11 +106,26 @@ CoordinateSample VentricularCoordinates::sample(int tet, const Vec4& barycentric
   const double g = s.value(slope_);
   const double h = s.value(rest_);
   const Vec3 grad_rg = r * s.slope(slope_) + g * away;
-  const double sum = r * g + h;
-  out.u = r * g / sum;
-  out.grad_u = (h * grad_rg - r * g * s.slope(rest_)) / (sum * sum);
+  const double rg = r * g;
+  const double sum = rg + h;
+  out.u = rg / sum;
+  out.grad_u = (h * grad_rg - rg * s.slope(rest_)) / (sum * sum);
 
   set_axes(X, away, r, out);
+  return out;
+}
+
+// In the words of `sample`, so that rounding is the same.
+CoordinatePlace VentricularCoordinates::place(int tet, const Vec4& barycentric) const {
+  CoordinatePlace out;
+  out.t = space_->interpolate(t_, tet, barycentric);
+  const Vec3 d = from_axis(space_->position(tet, barycentric));
+  const double r = std::max(d.norm(), kAxisRadius);
+  out.psi = std::atan2(d.dot(septal_), d.dot(anterior_));
+  if (stretch_) out.psi = std::remainder((*stretch_)(out.psi).first, 2 * polyaffine::kPi);
+  const double rg = r * space_->interpolate(slope_, tet, barycentric);
+  const double sum = rg + space_->interpolate(rest_, tet, barycentric);
+  out.u = rg / sum;
   return out;
 }
 

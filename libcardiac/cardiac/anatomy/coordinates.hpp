@@ -20,6 +20,11 @@ struct SurfaceLabels {
   std::optional<int> rv_endo{};  ///< absent: no right ventricle
 };
 
+template <class Archive>
+void archive(Archive& a, SurfaceLabels& x) {
+  a(x.endo, x.epi, x.base, x.rv_endo);
+}
+
 struct AnatomyOptions {
   std::optional<polyaffine::Vec3> long_axis{};     ///< apex to base; absent: find_long_axis
   std::optional<polyaffine::Vec3> mitral_point{};  ///< mm, near the mitral of several openings
@@ -39,6 +44,11 @@ struct CoordinateSample {
   polyaffine::Vec3 grad_u, grad_t, grad_psi;
   polyaffine::Mat3 Q;                  ///< columns longitudinal, circumferential, radial; orthonormal
   std::array<polyaffine::Mat3, 3> dQ;  ///< ∂Q/∂X_J
+};
+
+/// The coordinates alone.
+struct CoordinatePlace {
+  double u = 0, t = 0, psi = 0;  ///< as in CoordinateSample
 };
 
 /// Coordinates of a left ventricle, with quadratic elements on the curved wall. With a right ventricle they
@@ -70,6 +80,9 @@ class VentricularCoordinates {
                          const AnatomyOptions& options);
 
   CoordinateSample sample(int tet, const polyaffine::Vec4& barycentric) const;
+  /// u, t and ψ of `sample`, the same to the last bit, without gradients and axes, which take most of its
+  /// time.
+  CoordinatePlace place(int tet, const polyaffine::Vec4& barycentric) const;
   /// The same with the depth and axes (Q; its derivatives are zero) of the right free wall; only with a right
   /// ventricle.
   CoordinateSample right_sample(int tet, const polyaffine::Vec4& barycentric) const;
@@ -105,6 +118,17 @@ class VentricularCoordinates {
   polyaffine::Matrix axes() const;
 
  private:
+  friend class polyaffine::ArchiveAccess;
+  VentricularCoordinates() = default;
+  template <class Archive>
+  void archive(Archive& a) {
+    a(space_, long_axis_, axis_, base_centre_, anterior_, septal_, anterior_assumed_, cavity_length_,
+      arc_length_, least_steepness_, stretch_, right_, radial_, t_, slope_, rest_);
+    if constexpr (Archive::kReading)
+      if (!is_whole()) a.refuse("found ventricular coordinates whose parts do not fit each other");
+  }
+  bool is_whole() const;
+
   void orient_by(const AnatomyOptions& options);
   void orient(const polyaffine::Vec3& anterior);
   void find_insertions(const polyaffine::TetMesh& mesh);

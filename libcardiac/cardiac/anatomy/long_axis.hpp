@@ -22,6 +22,12 @@ struct LongAxis {
   bool normal_taken = false;     ///< the direction is base_normal
 };
 
+template <class Archive>
+void archive(Archive& a, LongAxis& x) {
+  a(x.direction, x.base_centre, x.base_normal, x.base_angle_deg, x.openings, x.mitral_known, x.given,
+    x.normal_taken);
+}
+
 /// Finds it on the mesh.
 ///
 /// - Openings: the open edges of the endocardium, all of which must run along the base. Of several the mitral

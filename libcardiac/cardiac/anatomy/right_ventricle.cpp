@@ -119,6 +119,12 @@ RightVentricularCoordinates::RightVentricularCoordinates(const polyaffine::TetMe
   t_ = laplace.solve(for_t);
 }
 
+bool RightVentricularCoordinates::is_whole() const {
+  if (!space_) return false;
+  const Eigen::Index n = space_->num_functions();
+  return w_.size() == n && septal_.size() == n && left_depth_.size() == n && t_.size() == n;
+}
+
 void RightVentricularCoordinates::settle(const polyaffine::TetMesh& mesh, const SurfaceLabels& labels,
                                          const Vec3& axis, const Vec3& anterior) {
   axis_ = axis;

@@ -56,6 +56,17 @@ class RightVentricularCoordinates {
   const polyaffine::Vector& transmural() const { return t_; }
 
  private:
+  friend class polyaffine::ArchiveAccess;
+  RightVentricularCoordinates() = default;
+  template <class Archive>
+  void archive(Archive& a) {
+    a(space_, w_, septal_, left_depth_, t_, axis_, base_centre_, anterior_, outward_, long_axis_, length_,
+      middle_, half_angle_);
+    if constexpr (Archive::kReading)
+      if (!is_whole()) a.refuse("found coordinates of the right ventricle whose parts do not fit each other");
+  }
+  bool is_whole() const;
+
   polyaffine::Vec3 from_axis(const polyaffine::Vec3& X) const;
 
   std::shared_ptr<const polyaffine::LagrangeBasis> space_;

@@ -72,6 +72,12 @@ void DirectionField::find_turning(const TetMesh& mesh) {
   }
 }
 
+bool DirectionField::is_whole() const {
+  if (tets_.size() > 0 && (tets_.minCoeff() < 0 || tets_.maxCoeff() >= points_.cols())) return false;
+  if (turning_.empty()) return given_.cols() == points_.cols();
+  return given_.cols() == tets_.cols() && std::ssize(turning_) == tets_.cols();
+}
+
 bool DirectionField::ambiguous(int tet) const {
   const auto& corners = tets_.col(tet);
   for (int i = 0; i < 4; ++i)

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include <polyaffine/core/archive_access.hpp>
 #include <polyaffine/mesh/tet_mesh.hpp>
 
 namespace cardiac {
@@ -24,8 +25,19 @@ class DirectionField {
   polyaffine::Vec3 at(int tet, const polyaffine::Vec4& barycentric, const polyaffine::Vec3& usual) const;
   /// Share of the tets in which two vectors of vertices are more than 40° apart; 0 for a field of tets.
   double ambiguous_share() const;
+  Eigen::Index num_tets() const { return tets_.cols(); }
 
  private:
+  friend class polyaffine::ArchiveAccess;
+  DirectionField() = default;
+  template <class Archive>
+  void archive(Archive& a) {
+    a(points_, tets_, given_, turning_);
+    if constexpr (Archive::kReading)
+      if (!is_whole()) a.refuse("found a field of directions that does not fit its mesh");
+  }
+  bool is_whole() const;
+
   bool ambiguous(int tet) const;
   void find_turning(const polyaffine::TetMesh& mesh);
 

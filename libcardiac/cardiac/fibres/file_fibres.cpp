@@ -99,6 +99,13 @@ FileFibres::FileFibres(const MeshFile& file, const std::string& source) {
   description_ += ", sheet across the wall";
 }
 
+bool FileFibres::is_whole() const {
+  const auto fits = [&](const std::optional<DirectionField>& field) {
+    return !field || field->num_tets() == fibre_->num_tets();
+  };
+  return fibre_ && fits(sheet_) && fits(normal_);
+}
+
 FibreAxes FileFibres::at(const VentricularCoordinates& coordinates, const std::vector<int>& tet,
                          const Eigen::Matrix4Xd& barycentric) const {
   FibreAxes out(9, barycentric.cols());

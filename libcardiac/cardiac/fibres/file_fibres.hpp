@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -32,11 +33,32 @@ class FileFibres {
   const std::string& description() const { return description_; }
   /// See DirectionField::ambiguous_share.
   double ambiguous_share() const { return ambiguous_share_; }
+  Eigen::Index num_tets() const { return fibre_->num_tets(); }
 
  private:
+  friend class polyaffine::ArchiveAccess;
+  FileFibres() = default;
+  template <class Archive>
+  void archive(Archive& a) {
+    a(fibre_, sheet_, normal_, description_, ambiguous_share_);
+    if constexpr (Archive::kReading)
+      if (!is_whole()) a.refuse("found fibres whose fields do not fit each other");
+  }
+  bool is_whole() const;
+
   std::optional<DirectionField> fibre_, sheet_, normal_;
   std::string description_;
   double ambiguous_share_ = 0;
+};
+
+/// Fibres of a file as Anatomy holds them (FibreFunction), which an archive of the anatomy knows again.
+struct FileFibreFunction {
+  std::shared_ptr<const FileFibres> fibres;
+
+  FibreAxes operator()(const VentricularCoordinates& coordinates, const std::vector<int>& tet,
+                       const Eigen::Matrix4Xd& barycentric) const {
+    return fibres->at(coordinates, tet, barycentric);
+  }
 };
 
 /// Has the file a field "fibre"?

@@ -55,7 +55,7 @@ std::vector<double> apical_factor(const Anatomy& anatomy, const Discretisation& 
   std::vector<double> factor;
   for (std::size_t q = 0; q < points.tet.size(); ++q) {
     const double s =
-        anatomy.coordinates->sample(points.tet[q], points.barycentric.col(static_cast<Eigen::Index>(q))).u /
+        anatomy.coordinates->place(points.tet[q], points.barycentric.col(static_cast<Eigen::Index>(q))).u /
         reach;
     factor.push_back(1 + (at_apex - 1) * std::exp(-s * s));
   }

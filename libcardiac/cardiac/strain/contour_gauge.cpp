@@ -39,14 +39,19 @@ Vector right_angle(const TetMesh& mesh, const RightVentricularCoordinates& right
   return out;
 }
 
+std::vector<double> lengths(const std::vector<MaterialLine>& lines, const Points& positions) {
+  std::vector<double> out;
+  for (const MaterialLine& line : lines) out.push_back(line.length(positions));
+  return out;
+}
+
 // Mean change of length of lines, percent; lines that are empty do not count.
-double mean_strain(const std::vector<MaterialLine>& lines, const Points& x, const Points& x_ed) {
+double mean_strain(const std::vector<double>& now, const std::vector<double>& before) {
   double sum = 0;
   int count = 0;
-  for (const MaterialLine& line : lines) {
-    const double before = line.length(x_ed);
-    if (before <= 0) continue;
-    sum += line.length(x) / before - 1;
+  for (std::size_t k = 0; k < now.size(); ++k) {
+    if (before[k] <= 0) continue;
+    sum += now[k] / before[k] - 1;
     ++count;
   }
   return count == 0 ? kNone : 100 * sum / count;
@@ -57,11 +62,18 @@ double mean_strain(const std::vector<MaterialLine>& lines, const Points& x, cons
 ContourGauge::ContourGauge(const TetMesh& mesh, const VentricularCoordinates& coordinates,
                            const std::vector<int>& segment, const SurfaceLabels& labels, Side side,
                            const Points& x_ed)
-    : side_(side), axis_(coordinates.axis()), x_ed_(x_ed) {
+    : side_(side), axis_(coordinates.axis()) {
   add_sheets(mesh, coordinates, segment, labels);
   add_lines(mesh, coordinates);
   add_wall(mesh, segment);
   add_rim(mesh, segment, labels);
+  for (const int layer : {inner, middle, outer}) {
+    const Points positions = sheets_[layer].positions(x_ed);
+    longitudinal_ed_[layer] = lengths(longitudinal_[layer], positions);
+    circumferential_ed_[layer] = lengths(circumferential_[layer], positions);
+  }
+  thickness_ed_ = thickness(x_ed);
+  if (!rim_.empty()) height_ed_ = height(x_ed);
 }
 
 void ContourGauge::add_sheets(const TetMesh& mesh, const VentricularCoordinates& coordinates,
@@ -160,18 +172,15 @@ double ContourGauge::height(const Points& x) const {
 
 void ContourGauge::measure(const Points& x, GlobalStrain& out) const {
   for (const int layer : {inner, middle, outer}) {
-    const Points now = sheets_[layer].positions(x);
-    const Points before = sheets_[layer].positions(x_ed_);
-    const auto strain = [&](const std::array<Lines, 3>& lines) {
-      return mean_strain(lines[layer], now, before);
-    };
+    const Points positions = sheets_[layer].positions(x);
     const auto member = std::array{&LayerStrain::endocardial_percent, &LayerStrain::midwall_percent,
                                    &LayerStrain::epicardial_percent}[layer];
-    out.longitudinal.*member = strain(longitudinal_);
-    out.circumferential.*member = strain(circumferential_);
+    out.longitudinal.*member = mean_strain(lengths(longitudinal_[layer], positions), longitudinal_ed_[layer]);
+    out.circumferential.*member =
+        mean_strain(lengths(circumferential_[layer], positions), circumferential_ed_[layer]);
   }
-  out.wall_thickening_percent = 100 * (thickness(x) / thickness(x_ed_) - 1);
-  out.base_excursion_mm = rim_.empty() ? kNone : height(x_ed_) - height(x);
+  out.wall_thickening_percent = 100 * (thickness(x) / thickness_ed_ - 1);
+  out.base_excursion_mm = rim_.empty() ? kNone : height_ed_ - height(x);
 }
 
 }  // namespace cardiac

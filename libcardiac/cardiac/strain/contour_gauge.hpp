@@ -58,7 +58,8 @@ class ContourGauge {
   polyaffine::Tets wall_;
   std::vector<int> rim_;
   int apex_ = 0;
-  polyaffine::Points x_ed_;
+  std::array<std::vector<double>, 3> longitudinal_ed_, circumferential_ed_;  ///< lengths of the lines, mm
+  double thickness_ed_ = 0, height_ed_ = 0;
 };
 
 }  // namespace cardiac

@@ -27,6 +27,12 @@ MonotoneCubic::MonotoneCubic(std::vector<double> x, std::vector<double> y)
     }
 }
 
+bool MonotoneCubic::is_whole() const {
+  const auto not_ascending = [](double a, double b) { return !(a < b); };
+  return x_.size() >= 2 && y_.size() == x_.size() && slope_.size() == x_.size() &&
+         std::adjacent_find(x_.begin(), x_.end(), not_ascending) == x_.end();
+}
+
 std::pair<double, double> MonotoneCubic::operator()(double x) const {
   if (x <= x_.front()) return {y_.front() + slope_.front() * (x - x_.front()), slope_.front()};
   if (x >= x_.back()) return {y_.back() + slope_.back() * (x - x_.back()), slope_.back()};

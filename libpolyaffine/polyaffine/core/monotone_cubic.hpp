@@ -3,6 +3,8 @@
 #include <utility>
 #include <vector>
 
+#include <polyaffine/core/archive_access.hpp>
+
 namespace polyaffine {
 
 /// Once continuously differentiable cubic through (x_k, y_k), x ascending, without overshoot between the
@@ -17,6 +19,15 @@ class MonotoneCubic {
   std::pair<double, double> operator()(double x) const;
 
  private:
+  friend class ArchiveAccess;
+  template <class Archive>
+  void archive(Archive& a) {
+    a(x_, y_, slope_);
+    if constexpr (Archive::kReading)
+      if (!is_whole()) a.refuse("found a cubic without two points at least, x ascending");
+  }
+  bool is_whole() const;
+
   std::vector<double> x_, y_, slope_;
 };
 

@@ -38,7 +38,7 @@ PolynomialField::PolynomialField(const Points& X, const Matrix& values, const Ve
   Matrix block(n, kBlock);
   for (Eigen::Index first = 0; first < X.cols(); first += kBlock) {
     const Eigen::Index count = std::min(kBlock, X.cols() - first);
-    for (Eigen::Index k = 0; k < count; ++k) block.col(k) = functions(X.col(first + k)).P;
+    for (Eigen::Index k = 0; k < count; ++k) block.col(k) = functions(X.col(first + k)).row(0);
     const auto P = block.leftCols(count);
     const Matrix weighted = P * weights.segment(first, count).asDiagonal();
     A.noalias() += weighted * P.transpose();
@@ -48,6 +48,10 @@ PolynomialField::PolynomialField(const Points& X, const Matrix& values, const Ve
   // see.
   A.diagonal().array() += 1e-10 * weights.sum();
   coefficients_ = Eigen::LDLT<Matrix>(A).solve(rhs).transpose();
+}
+
+bool PolynomialField::is_whole() const {
+  return degree_ >= 0 && degree_ <= kMostDegree && coefficients_.cols() == count_of(degree_);
 }
 
 PolynomialField::Functions PolynomialField::functions(const Vec3& X) const {
@@ -61,24 +65,29 @@ PolynomialField::Functions PolynomialField::functions(const Vec3& X) const {
       slope[k][n + 1] = (n > 0 ? slope[k][n - 1] : 0) + (2 * n + 1) * L[k][n] / half_[k];
     }
   }
-  Functions out;
-  out.P.resize(count_of(degree_));
-  out.gradient.resize(count_of(degree_), 3);
+  Functions out(4, count_of(degree_));
   int m = 0;
   for (int i = 0; i <= degree_; ++i)
     for (int j = 0; i + j <= degree_; ++j)
       for (int k = 0; i + j + k <= degree_; ++k, ++m) {
-        out.P[m] = L[0][i] * L[1][j] * L[2][k];
-        out.gradient(m, 0) = slope[0][i] * L[1][j] * L[2][k];
-        out.gradient(m, 1) = L[0][i] * slope[1][j] * L[2][k];
-        out.gradient(m, 2) = L[0][i] * L[1][j] * slope[2][k];
+        out.col(m) << L[0][i] * L[1][j] * L[2][k], slope[0][i] * L[1][j] * L[2][k],
+            L[0][i] * slope[1][j] * L[2][k], L[0][i] * L[1][j] * slope[2][k];
       }
   return out;
 }
 
 PolynomialField::Sample PolynomialField::sample(const Vec3& X) const {
   const Functions f = functions(X);
-  return {coefficients_ * f.P, coefficients_ * f.gradient};
+  if (coefficients_.rows() != 3)
+    return {coefficients_ * f.row(0).transpose(), coefficients_ * f.bottomRows<3>().transpose()};
+  // A vector field is asked for at every point of a wall: all twelve sums at once, without memory of their
+  // own.
+  Eigen::Matrix<double, 4, 3> sums = Eigen::Matrix<double, 4, 3>::Zero();
+  for (Eigen::Index m = 0; m < f.cols(); ++m) {
+    const Vec4 function = f.col(m);
+    for (int i = 0; i < 3; ++i) sums.col(i) += coefficients_(i, m) * function;
+  }
+  return {sums.row(0).transpose(), sums.bottomRows<3>().transpose()};
 }
 
 }  // namespace polyaffine

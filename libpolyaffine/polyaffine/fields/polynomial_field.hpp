@@ -1,5 +1,6 @@
 #pragma once
 
+#include <polyaffine/core/archive_access.hpp>
 #include <polyaffine/core/types.hpp>
 
 namespace polyaffine {
@@ -21,16 +22,25 @@ class PolynomialField {
   };
   Sample sample(const Vec3& X) const;
   int num_functions() const { return static_cast<int>(coefficients_.cols()); }
+  int num_components() const { return static_cast<int>(coefficients_.rows()); }
 
  private:
+  friend class ArchiveAccess;
+  PolynomialField() = default;
+  template <class Archive>
+  void archive(Archive& a) {
+    a(degree_, centre_, half_, coefficients_);
+    if constexpr (Archive::kReading)
+      if (!is_whole()) a.refuse("found a polynomial whose coefficients do not fit its degree");
+  }
+  bool is_whole() const;
+
   static constexpr int kMost = (kMostDegree + 1) * (kMostDegree + 2) * (kMostDegree + 3) / 6;
-  struct Functions {
-    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMost, 1> P;
-    Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kMost, 3> gradient;
-  };
+  /// A column a function: its value and its gradient.
+  using Functions = Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, kMost>;
   Functions functions(const Vec3& X) const;
 
-  int degree_;
+  int degree_ = 0;
   Vec3 centre_, half_;
   Matrix coefficients_;  // components × functions
 };

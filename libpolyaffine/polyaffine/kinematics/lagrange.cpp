@@ -23,6 +23,11 @@ std::uint64_t key_of(int a, int b) {
   return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint32_t>(std::max(a, b));
 }
 
+// dX/dξ of ∂X/∂l, a column a barycentric coordinate; ξ are the last three.
+Mat3 jacobian(const Eigen::Matrix<double, 3, 4>& by_barycentric) {
+  return by_barycentric.rightCols<3>().colwise() - by_barycentric.col(0);
+}
+
 }  // namespace
 
 LagrangeBasis::LagrangeBasis(const TetMesh& mesh, int order, const EdgeMidpoints& midpoints)
@@ -38,6 +43,11 @@ LagrangeBasis::LagrangeBasis(const TetMesh& mesh, int order, const EdgeMidpoints
   if (midpoints.empty()) return;
   while (straighten_turned_over()) {
   }
+}
+
+bool LagrangeBasis::is_whole() const {
+  if ((order_ != 1 && order_ != 2) || elements_.rows() != (order_ == 1 ? 4 : 10)) return false;
+  return elements_.size() == 0 || (elements_.minCoeff() >= 0 && elements_.maxCoeff() < nodes_.cols());
 }
 
 // Numbers the edges as they are met, after the vertices.
@@ -153,8 +163,7 @@ Points LagrangeBasis::positions(const std::vector<int>& tet, const Eigen::Matrix
 }
 
 Mat3 LagrangeBasis::jacobian(int tet, const Vec4& barycentric) const {
-  const auto by_barycentric = tangents(tet, shape(barycentric));
-  return by_barycentric.rightCols<3>().colwise() - by_barycentric.col(0);
+  return polyaffine::jacobian(tangents(tet, shape(barycentric)));
 }
 
 double LagrangeBasis::interpolate(const Vector& nodal, int tet, const Vec4& barycentric) const {
@@ -167,10 +176,9 @@ double LagrangeBasis::interpolate(const Vector& nodal, int tet, const Vec4& bary
 ElementSample LagrangeBasis::element_sample(int tet, const Vec4& barycentric) const {
   const Shape s = shape(barycentric);
   const auto by_barycentric = tangents(tet, s);
-  const Mat3 jacobian = by_barycentric.rightCols<3>().colwise() - by_barycentric.col(0);
   // ∇l_k, a row each; the first one follows from Σ l = 1.
   Eigen::Matrix<double, 4, 3> by_X;
-  by_X.bottomRows<3>() = jacobian.inverse();
+  by_X.bottomRows<3>() = polyaffine::jacobian(by_barycentric).inverse();
   by_X.row(0) = -by_X.bottomRows<3>().colwise().sum();
   ElementSample out;
   out.functions = elements_.col(tet);
@@ -192,8 +200,26 @@ BasisSample LagrangeBasis::sample(int tet, const Vec4& barycentric) const {
   return out;
 }
 
+// The functions at the points of the rule are those of every element.
 WallPoints LagrangeBasis::wall_points(int degree) const {
-  return wall_points([rule = tet_rule(degree)](int) { return rule; });
+  const TetRule rule = tet_rule(degree);
+  const Eigen::Index elements = elements_.cols(), n = rule.weights.size();
+  std::vector<Shape> shapes;
+  for (Eigen::Index k = 0; k < n; ++k) shapes.push_back(shape(rule.barycentric.col(k)));
+  WallPoints out;
+  out.barycentric = rule.barycentric.replicate(1, elements);
+  out.weights.resize(n * elements);
+  out.tet.reserve(static_cast<std::size_t>(n * elements));
+  out.starts.push_back(0);
+  for (int t = 0; t < static_cast<int>(elements); ++t) {
+    for (Eigen::Index k = 0; k < n; ++k) {
+      out.weights[n * t + k] =
+          rule.weights[k] * polyaffine::jacobian(tangents(t, shapes[k])).determinant() / 6;
+      out.tet.push_back(t);
+    }
+    out.starts.push_back(static_cast<int>(out.tet.size()));
+  }
+  return out;
 }
 
 WallPoints LagrangeBasis::wall_points(const std::function<TetRule(int)>& rule) const {

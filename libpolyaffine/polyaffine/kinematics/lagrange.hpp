@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include <polyaffine/core/archive_access.hpp>
 #include <polyaffine/kinematics/basis.hpp>
 #include <polyaffine/mesh/curved_edges.hpp>
 #include <polyaffine/mesh/tet_mesh.hpp>
@@ -66,6 +67,17 @@ class LagrangeBasis : public Basis {
   std::vector<int> surface_nodes(const TetMesh& mesh, const std::vector<int>& labels) const;
 
  private:
+  friend class ArchiveAccess;
+  LagrangeBasis() = default;
+  template <class Archive>
+  void archive(Archive& a) {
+    a(order_, nodes_, elements_);
+    if constexpr (Archive::kReading)
+      if (!is_whole())
+        a.refuse("found finite elements whose order, nodes and elements do not fit each other");
+  }
+  bool is_whole() const;
+
   // Values of an element's functions and their derivatives by the barycentric coordinates, function by
   // column.
   struct Shape {
@@ -81,7 +93,7 @@ class LagrangeBasis : public Basis {
   bool turned_over(int tet) const;
   bool straighten_turned_over();
 
-  int order_;
+  int order_ = 1;
   Points nodes_;
   Eigen::MatrixXi elements_;
 };

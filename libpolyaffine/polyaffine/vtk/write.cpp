@@ -1,30 +1,20 @@
 #include "polyaffine/vtk/write.hpp"
 
-#include <vtkCellData.h>
-#include <vtkCellType.h>
-#include <vtkDoubleArray.h>
-#include <vtkFieldData.h>
-#include <vtkFloatArray.h>
-#include <vtkIntArray.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkSmartPointer.h>
-#include <vtkStringArray.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkXMLUnstructuredGridWriter.h>
-
 #include <algorithm>
-#include <cerrno>
+#include <cstdint>
+#include <span>
+#include <sstream>
+
 #include <polyaffine/core/atomic_file.hpp>
 #include <polyaffine/core/error.hpp>
-#include <polyaffine/vtk/message_trap.hpp>
-#include <sstream>
-#include <system_error>
+#include <polyaffine/vtk/xml_writer.hpp>
 
 namespace polyaffine {
 namespace {
 
 using std::filesystem::path;
+using vtk_xml::StoredArray;
+using vtk_xml::StoredArrays;
 
 void check_target(const path& file, const std::string& extension) {
   if (file.extension() != extension)
@@ -43,57 +33,40 @@ void check_width(const path& file, const std::string& name, const Matrix& field,
                      std::to_string(expected) + " " + of);
 }
 
-vtkSmartPointer<vtkDoubleArray> double_array(const std::string& name, const Matrix& field) {
-  auto array = vtkSmartPointer<vtkDoubleArray>::New();
-  array->SetName(name.c_str());
-  array->SetNumberOfComponents(static_cast<int>(field.rows()));
-  array->SetNumberOfTuples(field.cols());
-  std::copy(field.data(), field.data() + field.size(), array->GetPointer(0));
-  return array;
+// Numbers of VTK's cell types.
+constexpr std::uint8_t kTriangle = 5, kTet = 10;
+
+std::vector<std::string> components_of(const path& file, const WriteFields& fields, const std::string& name,
+                                       Eigen::Index components) {
+  const auto found = fields.components.find(name);
+  if (found == fields.components.end()) return {};
+  if (std::ssize(found->second) != components)
+    throw InputError(file.string() + ": field \"" + name + "\": found " +
+                     std::to_string(found->second.size()) + " names of components, expected " +
+                     std::to_string(components));
+  return found->second;
 }
 
-vtkSmartPointer<vtkDataArray> field_array(const WriteFields& fields, const std::string& name,
-                                          const Matrix& field) {
-  if (!fields.single.contains(name)) return double_array(name, field);
-  auto array = vtkSmartPointer<vtkFloatArray>::New();
-  array->SetName(name.c_str());
-  array->SetNumberOfComponents(static_cast<int>(field.rows()));
-  array->SetNumberOfTuples(field.cols());
-  std::transform(field.data(), field.data() + field.size(), array->GetPointer(0),
-                 [](double value) { return static_cast<float>(value); });
-  return array;
+// The columns of a field in some order, with the precision asked for.
+template <class T, class Columns>
+StoredArray array_of(const path& file, const WriteFields& fields, const std::string& name,
+                     const Matrix& field, const Columns& columns) {
+  const Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic> values =
+      field(Eigen::all, columns).template cast<T>();
+  return vtk_xml::number_array(name,
+                               std::span<const T>(values.data(), static_cast<std::size_t>(values.size())),
+                               field.rows(), components_of(file, fields, name, field.rows()));
+}
+template <class Columns>
+StoredArray field_array(const path& file, const WriteFields& fields, const std::string& name,
+                        const Matrix& field, const Columns& columns) {
+  return fields.single.contains(name) ? array_of<float>(file, fields, name, field, columns)
+                                      : array_of<double>(file, fields, name, field, columns);
 }
 
-vtkSmartPointer<vtkIntArray> int_array(const std::string& name, const std::vector<int>& values) {
-  auto array = vtkSmartPointer<vtkIntArray>::New();
-  array->SetName(name.c_str());
-  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
-  std::copy(values.begin(), values.end(), array->GetPointer(0));
-  return array;
-}
-
-void name_components(const path& file, const WriteFields& fields, vtkDataSetAttributes& data) {
-  for (const auto& [name, components] : fields.components) {
-    vtkDataArray* array = data.GetArray(name.c_str());
-    if (array == nullptr) continue;
-    if (array->GetNumberOfComponents() != static_cast<int>(components.size()))
-      throw InputError(file.string() + ": field \"" + name + "\": found " +
-                       std::to_string(components.size()) + " names of components, expected " +
-                       std::to_string(array->GetNumberOfComponents()));
-    for (int k = 0; k < array->GetNumberOfComponents(); ++k)
-      array->SetComponentName(k, components[k].c_str());
-  }
-}
-
-void add_field_data(const WriteFields& fields, vtkFieldData& data) {
-  for (const auto& [name, texts] : fields.texts) {
-    vtkNew<vtkStringArray> array;
-    array->SetName(name.c_str());
-    for (const std::string& text : texts) array->InsertNextValue(text);
-    data.AddArray(array);
-  }
-  for (const auto& [name, value] : fields.values)
-    data.AddArray(double_array(name, Matrix::Constant(1, 1, value)));
+StoredArray int_array(const path& file, const WriteFields& fields, const std::string& name,
+                      const std::vector<int>& values) {
+  return vtk_xml::number_array(name, std::span<const int>(values), 1, components_of(file, fields, name, 1));
 }
 
 // Of a cell field: its name is not one that the labels of the mesh have.
@@ -111,82 +84,102 @@ std::vector<int> labelled_faces(const TetMesh& mesh) {
   return faces;
 }
 
-vtkSmartPointer<vtkUnstructuredGrid> grid_of(const TetMesh& mesh, const Points& points,
-                                             const std::vector<int>& faces) {
-  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
-  vtkNew<vtkPoints> vertices;
-  vertices->SetDataTypeToDouble();
-  vertices->SetNumberOfPoints(points.cols());
-  for (Eigen::Index i = 0; i < points.cols(); ++i) vertices->SetPoint(i, points.col(i).data());
-  grid->SetPoints(vertices);
-  grid->Allocate(mesh.num_tets() + static_cast<vtkIdType>(faces.size()));
-  for (int t = 0; t < mesh.num_tets(); ++t) {
-    const Eigen::Matrix<vtkIdType, 4, 1> tet = mesh.tets().col(t).cast<vtkIdType>();
-    grid->InsertNextCell(VTK_TETRA, 4, tet.data());
-  }
+StoredArrays topology_of(const TetMesh& mesh, const std::vector<int>& faces) {
+  std::vector<int> connectivity(mesh.tets().data(), mesh.tets().data() + mesh.tets().size()), offsets;
+  std::vector<std::uint8_t> types(mesh.num_tets(), kTet);
+  for (int t = 1; t <= mesh.num_tets(); ++t) offsets.push_back(4 * t);
   for (const int f : faces) {
-    const Eigen::Matrix<vtkIdType, 3, 1> triangle = mesh.boundary().col(f).cast<vtkIdType>();
-    grid->InsertNextCell(VTK_TRIANGLE, 3, triangle.data());
+    for (const int corner : mesh.boundary().col(f)) connectivity.push_back(corner);
+    offsets.push_back(static_cast<int>(connectivity.size()));
+    types.push_back(kTriangle);
   }
-  return grid;
+  return {vtk_xml::number_array("connectivity", std::span<const int>(connectivity), 1),
+          vtk_xml::number_array("offsets", std::span<const int>(offsets), 1),
+          vtk_xml::number_array("types", std::span<const std::uint8_t>(types), 1)};
 }
 
-}  // namespace
-
-void write_vtu(const path& file, const TetMesh& mesh, const WriteFields& fields) {
-  check_target(file, ".vtu");
-  if (fields.points.cols() != 0) check_width(file, "points", fields.points, mesh.num_points(), "points");
-  const std::vector<int> faces = labelled_faces(mesh);
-  const auto num_cells = mesh.num_tets() + static_cast<Eigen::Index>(faces.size());
-  const auto grid = grid_of(mesh, fields.points.cols() ? fields.points : mesh.points(), faces);
-
-  std::vector<int> surface(num_cells, 0), region = mesh.regions();
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    surface[mesh.num_tets() + i] = mesh.boundary_labels()[faces[i]];
-    region.push_back(mesh.regions()[mesh.boundary_tets()[faces[i]]]);
+StoredArrays labels_of(const TetMesh& mesh, const std::vector<int>& faces) {
+  std::vector<int> surface(mesh.num_tets(), 0), region = mesh.regions();
+  for (const int f : faces) {
+    surface.push_back(mesh.boundary_labels()[f]);
+    region.push_back(mesh.regions()[mesh.boundary_tets()[f]]);
   }
-  if (!faces.empty()) grid->GetCellData()->AddArray(int_array("surface", surface));
-  if (std::any_of(region.begin(), region.end(), [](int r) { return r != 0; }))
-    grid->GetCellData()->AddArray(int_array("region", region));
+  StoredArrays out;
+  if (!faces.empty()) out.push_back(vtk_xml::number_array("surface", std::span<const int>(surface), 1));
+  if (std::ranges::any_of(region, [](int r) { return r != 0; }))
+    out.push_back(vtk_xml::number_array("region", std::span<const int>(region), 1));
+  return out;
+}
 
+struct FieldArrays {
+  StoredArrays field_data, point_data, cell_data;
+};
+
+// `tets`: whose value each cell shows.
+FieldArrays arrays_of(const path& file, const TetMesh& mesh, const std::vector<int>& tets,
+                      const WriteFields& fields) {
+  FieldArrays out;
+  for (const auto& [name, texts] : fields.texts) out.field_data.push_back(vtk_xml::text_array(name, texts));
+  for (const auto& [name, value] : fields.values) out.field_data.push_back(vtk_xml::field_value(name, value));
   for (const auto& [name, field] : fields.point_fields) {
     check_width(file, name, field, mesh.num_points(), "points");
-    grid->GetPointData()->AddArray(field_array(fields, name, field));
+    out.point_data.push_back(field_array(file, fields, name, field, Eigen::all));
   }
   for (const auto& [name, field] : fields.cell_fields) {
     check_width(file, name, field, mesh.num_tets(), "tets");
     check_free(file, name);
-    Matrix all(field.rows(), num_cells);
-    all.leftCols(mesh.num_tets()) = field;
-    for (std::size_t i = 0; i < faces.size(); ++i)
-      all.col(mesh.num_tets() + static_cast<Eigen::Index>(i)) = field.col(mesh.boundary_tets()[faces[i]]);
-    grid->GetCellData()->AddArray(field_array(fields, name, all));
+    out.cell_data.push_back(field_array(file, fields, name, field, tets));
   }
   for (const auto& [name, field] : fields.integer_cell_fields) {
     check_width(file, name, Matrix(1, field.size()), mesh.num_tets(), "tets");
     check_free(file, name);
-    std::vector<int> all = field;
-    for (const int f : faces) all.push_back(field[mesh.boundary_tets()[f]]);
-    grid->GetCellData()->AddArray(int_array(name, all));
+    std::vector<int> all;
+    for (const int t : tets) all.push_back(field[t]);
+    out.cell_data.push_back(int_array(file, fields, name, all));
   }
-  name_components(file, fields, *grid->GetPointData());
-  name_components(file, fields, *grid->GetCellData());
-  add_field_data(fields, *grid->GetFieldData());
+  return out;
+}
 
-  const MessageTrap trap;
-  vtkNew<vtkXMLUnstructuredGridWriter> writer;
-  writer->SetCompressorTypeToZLib();
-  writer->SetCompressionLevel(1);
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
-  writer->SetInputData(grid);
-  write_atomically(file, [&](const path& temporary) {
-    errno = 0;
-    writer->SetFileName(temporary.c_str());
-    if (writer->Write() != 1 || !trap.first_error().empty())
-      throw ComputationError("cannot write " + file.string() + " to its end" +
-                             (errno == 0 ? "" : ": " + std::generic_category().message(errno)));
-  });
+}  // namespace
+
+struct VtuSeries::Parts {
+  std::vector<int> tets;  // whose value each cell shows
+  StoredArrays topology, labels;
+  FieldArrays constant;
+};
+
+VtuSeries::VtuSeries(const TetMesh& mesh, const WriteFields& constant) : mesh_(mesh) {
+  const std::vector<int> faces = labelled_faces(mesh);
+  auto parts = std::make_unique<Parts>();
+  for (int t = 0; t < mesh.num_tets(); ++t) parts->tets.push_back(t);
+  for (const int f : faces) parts->tets.push_back(mesh.boundary_tets()[f]);
+  parts->topology = topology_of(mesh, faces);
+  parts->labels = labels_of(mesh, faces);
+  parts->constant = arrays_of("series", mesh, parts->tets, constant);
+  parts_ = std::move(parts);
+}
+
+VtuSeries::VtuSeries(VtuSeries&&) noexcept = default;
+VtuSeries::~VtuSeries() = default;
+
+void VtuSeries::write(const path& file, const WriteFields& fields) const {
+  check_target(file, ".vtu");
+  if (fields.points.cols() != 0) check_width(file, "points", fields.points, mesh_.num_points(), "points");
+  const Points& points = fields.points.cols() != 0 ? fields.points : mesh_.points();
+  const FieldArrays changing = arrays_of(file, mesh_, parts_->tets, fields);
+  const StoredArrays vertices{vtk_xml::number_array(
+      "Points", std::span<const double>(points.data(), static_cast<std::size_t>(points.size())), 3)};
+  vtk_xml::GridParts grid{mesh_.num_points(), std::ssize(parts_->tets), {}, {}, {}, {&vertices}, {}};
+  grid.topology = {&parts_->topology};
+  grid.field_data = {&parts_->constant.field_data, &changing.field_data};
+  grid.point_data = {&parts_->constant.point_data, &changing.point_data};
+  grid.cell_data = {&parts_->labels, &parts_->constant.cell_data, &changing.cell_data};
+  write_atomically(file, vtk_xml::file_text(grid));
+}
+
+void write_vtu(const path& file, const TetMesh& mesh, const WriteFields& fields) {
+  check_target(file, ".vtu");
+  VtuSeries(mesh).write(file, fields);
 }
 
 void write_pvd(const path& file, const std::vector<double>& times_ms, const std::vector<path>& files) {

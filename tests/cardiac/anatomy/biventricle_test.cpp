@@ -82,6 +82,18 @@ TEST(Biventricle, GradientsAreThoseOfTheCoordinates) {
   EXPECT_GT(seen, 100);
 }
 
+TEST(Biventricle, PlaceIsThatOfTheSampleWithItsStretchedAngle) {
+  const auto& both = Biventricle::get();
+  for (int t = 0; t < both.mesh.num_tets(); ++t) {
+    const Vec4 at(0.4, 0.3, 0.2, 0.1);
+    const CoordinateSample s = both.coordinates->sample(t, at);
+    const CoordinatePlace place = both.coordinates->place(t, at);
+    EXPECT_EQ(place.u, s.u);
+    EXPECT_EQ(place.t, s.t);
+    EXPECT_EQ(place.psi, s.psi);
+  }
+}
+
 TEST(Biventricle, SegmentsAreConnectedAndCoverTheWall) {
   const auto& both = Biventricle::get();
   const std::vector<int> segment = segment_tets(both.mesh, *both.coordinates);

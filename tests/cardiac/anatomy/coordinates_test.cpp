@@ -172,6 +172,15 @@ TEST(Coordinates, GradientsMatchFiniteDifferences) {
   EXPECT_GT(largest, 0.1);  // 1/mm: the axes do turn, by about 1/radius
 }
 
+TEST(Coordinates, PlaceIsThatOfTheSample) {
+  for_points([](int t, const Vec4& l, const Vec3&, const CoordinateSample& s) {
+    const CoordinatePlace place = LandEllipsoid::get().coordinates->place(t, l);
+    EXPECT_EQ(place.u, s.u);
+    EXPECT_EQ(place.t, s.t);
+    EXPECT_EQ(place.psi, s.psi);
+  });
+}
+
 TEST(Coordinates, WhatIsMissingIsNamed) {
   const auto& mesh = LandEllipsoid::get().mesh;
   const auto make = [&](SurfaceLabels labels, const AnatomyOptions& options = {}) {

@@ -6,6 +6,7 @@
 #include <vtkFieldData.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkStringArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridReader.h>
@@ -142,6 +143,94 @@ TEST_F(Vtu, ComponentsAndTextsAreNamed) {
   EXPECT_EQ(read_vtu(in("named.vtu"), 1).num_tets(), mesh.num_tets());
   fields.components = {{"strain", {"along"}}};
   EXPECT_THROW(write_vtu(in("named.vtu"), mesh, fields), InputError);
+}
+
+// Cubes beside each other, so that arrays take several blocks.
+TetMesh many_cubes(int count) {
+  const auto cube = testing::unit_cube();
+  Points points(3, 4 * (count + 1));
+  for (Eigen::Index k = 0; k < points.cols(); ++k)
+    points.col(k) << static_cast<double>(k / 4), static_cast<double>(k / 2 % 2), static_cast<double>(k % 2);
+  Tets tets(4, cube.tets.cols() * count);
+  for (Eigen::Index t = 0; t < tets.cols(); ++t)
+    for (int k = 0; k < 4; ++k) {
+      const Vec3 X = cube.points.col(cube.tets(k, t % cube.tets.cols()));
+      tets(k, t) = static_cast<int>(4 * (t / cube.tets.cols() + X.x()) + 2 * X.y() + X.z());
+    }
+  return {points, tets};
+}
+
+TEST_F(Vtu, LongArraysOfManyBlocksComeBack) {
+  const TetMesh mesh = many_cubes(8191);
+  ASSERT_EQ(mesh.num_points() * sizeof(double), std::size_t{1} << 18U) << "\"whole\" is to be a whole block";
+  WriteFields fields;
+  fields.point_fields["noise"] = Matrix::Random(3, mesh.num_points());  // does not shrink
+  fields.point_fields["even"] = Matrix::Constant(3, mesh.num_points(), 0.1);
+  fields.point_fields["whole"] = Matrix::Random(1, mesh.num_points());
+  fields.cell_fields["half"] = Matrix::Random(2, mesh.num_tets());
+  fields.cell_fields["half"].leftCols(mesh.num_tets() / 2).setZero();
+  write_vtu(in("long.vtu"), mesh, fields);
+  const auto expect_back = [&](const MeshFile& back) {
+    EXPECT_EQ(back.mesh.points(), mesh.points());
+    EXPECT_EQ(back.mesh.tets(), mesh.tets());
+    EXPECT_EQ(back.point_fields, fields.point_fields);
+    EXPECT_EQ(back.cell_fields, fields.cell_fields);
+  };
+  expect_back(read_mesh_file(in("long.vtu"), 1, {.fields = true}));
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  reader->SetFileName(in("long.vtu").c_str());
+  reader->Update();
+  vtkPointData* points = reader->GetOutput()->GetPointData();
+  for (const char* name : {"noise", "even"})
+    for (vtkIdType k = 0; k < mesh.num_points(); k += 997)
+      EXPECT_EQ(points->GetArray(name)->GetTuple3(k)[2], fields.point_fields[name](2, k)) << name << k;
+  const auto numbers = 10 * mesh.num_points() + 6 * mesh.num_tets();  // of them 3 and 2 a point do not shrink
+  EXPECT_LT(std::filesystem::file_size(in("long.vtu")), numbers * sizeof(double) / 2);
+}
+
+TEST_F(Vtu, NamesMayHoldWhatXmlMeansSomethingBy) {
+  const TetMesh mesh = labelled_cube();
+  const std::string name = "a<b & \"c\">";
+  WriteFields fields;
+  fields.point_fields[name] = Matrix::Random(1, mesh.num_points());
+  fields.components[name] = {"<&>"};
+  write_vtu(in("names.vtu"), mesh, fields);
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  reader->SetFileName(in("names.vtu").c_str());
+  reader->Update();
+  vtkDataArray* found = reader->GetOutput()->GetPointData()->GetArray(name.c_str());
+  ASSERT_NE(found, nullptr);
+  EXPECT_STREQ(found->GetComponentName(0), "<&>");
+  EXPECT_EQ(read_mesh_file(in("names.vtu"), 1, {.fields = true}).point_fields, fields.point_fields);
+}
+
+TEST_F(Vtu, FilesOfASeriesAreThoseWrittenAlone) {
+  const TetMesh mesh = labelled_cube();
+  WriteFields constant;
+  constant.integer_cell_fields["part"] = {1, 2, 3, 4, 5, 6};
+  constant.point_fields["a_constant"] = Matrix::Random(2, mesh.num_points());
+  constant.texts["a_text"] = {"x"};
+  const VtuSeries series(mesh, constant);
+  for (const double time : {0.0, 1.0}) {
+    WriteFields fields;
+    fields.points = (1 + time) * mesh.points();
+    fields.point_fields["moving"] = Matrix::Random(3, mesh.num_points());
+    fields.values["time_ms"] = time;
+    series.write(in("one.vtu"), fields);
+    const MeshFile back = read_mesh_file(in("one.vtu"), 1, {.fields = true});
+    EXPECT_EQ(back.mesh.points(), fields.points);
+    EXPECT_EQ(back.mesh.boundary_labels(), mesh.boundary_labels());
+    EXPECT_EQ(back.point_fields.at("moving"), fields.point_fields["moving"]);
+    EXPECT_EQ(back.point_fields.at("a_constant"), constant.point_fields["a_constant"]);
+    EXPECT_EQ(back.cell_fields.at("part")(0, 3), 4);
+    fields.integer_cell_fields = constant.integer_cell_fields;
+    fields.point_fields.insert(constant.point_fields.begin(), constant.point_fields.end());
+    fields.texts = constant.texts;
+    write_vtu(in("alone.vtu"), mesh, fields);
+    EXPECT_EQ(std::filesystem::file_size(in("one.vtu")), std::filesystem::file_size(in("alone.vtu")));
+  }
+  constant.point_fields["a_constant"] = Matrix::Zero(2, 3);
+  EXPECT_THAT(error_of([&] { VtuSeries(mesh, constant); }), HasSubstr("\"a_constant\": found 2 × 3"));
 }
 
 TEST_F(Vtu, DeformedPointsReplaceTheReference) {
