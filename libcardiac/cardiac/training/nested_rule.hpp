@@ -10,6 +10,7 @@ namespace cardiac {
 struct NestedRule {
   KeptPoints wall;
   std::vector<KeptPoints> cavities;
+  std::shared_ptr<const polyaffine::LinearCorrection> correction;
 };
 
 /// Trains the sparse rule of a nested model. Of the full-order points some are candidates; few are kept, with
@@ -17,7 +18,8 @@ struct NestedRule {
 /// see come out as all full-order points have them. With the tangent K of a state (pressures eliminated), D =
 /// ∂g/∂c and the metric G of the functions an error (δf, δg) counts as the displacement that it makes,
 ///   δc = K⁻¹ (δf + κ DᵀM⁻¹ δg),  ‖δc‖_G / ‖c‖_G,
-/// and likewise an error of a cavity's force p ∂V/∂c, together with that of its volume, times three.
+/// and likewise an error of a cavity's force p ∂V/∂c, together with that of its volume, times three. What the
+/// chosen points still miss hardly differs from one state to the next: a linear correction takes it up.
 class NestedRuleTraining {
  public:
   /// All of them must outlive it.
@@ -28,6 +30,8 @@ class NestedRuleTraining {
   bool add(const FullState& state);
   /// The points with the wanted root mean square error over the states, that of the cavities a half.
   NestedRule select(double accuracy) const;
+  /// The nested model with the points of a rule only.
+  Discretisation with(const NestedRule& rule) const;
 
   const Discretisation& nested() const { return nested_; }  ///< with all full-order points
   const polyaffine::Matrix& metric() const { return metric_; }
@@ -36,6 +40,7 @@ class NestedRuleTraining {
   // What the contributions of a state are measured with.
   struct Measure;
   void add_wall(const Measure& at, const FullState& state);
+  std::shared_ptr<const polyaffine::LinearCorrection> correction_of(const Discretisation& points) const;
   void add_cavity(const Measure& at, std::size_t cavity);
 
   FullOrder& full_;
@@ -46,7 +51,12 @@ class NestedRuleTraining {
   KeptPoints wall_points_;  // the candidates
   std::vector<KeptPoints> cavity_points_;
   polyaffine::Matrix metric_, root_;  // G = rootᵀ root
-  int states_ = 0;
+  // A state as the space holds it, and what all points make of it.
+  struct Target {
+    TrainingLoad load;
+    polyaffine::Vector c, pressure, force, change;
+  };
+  std::vector<Target> targets_;
   polyaffine::CubatureTraining wall_;
   std::vector<polyaffine::CubatureTraining> cavities_;
 };

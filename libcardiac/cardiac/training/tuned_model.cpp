@@ -138,13 +138,12 @@ class Tuning {
       }
     tell("round " + std::to_string(round + 1) + ": choice of points");
     const NestedRule rule = training.select(rule_accuracy);
-    const Discretisation& nested = training.nested();
-    model.wall = kept(nested.points, rule.wall);
-    model.cavities = nested.cavities;
-    for (std::size_t k = 0; k < rule.cavities.size(); ++k)
-      model.cavities[k].points = kept(nested.cavities[k].points, rule.cavities[k]);
-    model.epicardium = nested.epicardium_points;
-    model.pressure_mass = nested.pressure_mass;
+    const Discretisation kept = training.with(rule);
+    model.wall = kept.points;
+    model.cavities = kept.cavities;
+    model.epicardium = kept.epicardium_points;
+    model.pressure_mass = kept.pressure_mass;
+    model.correction = kept.correction;
     metric_ = training.metric();
   }
 
@@ -220,6 +219,7 @@ Discretisation tuned_discretisation(const Anatomy& anatomy, const Scene& scene, 
   points.epicardium_points = model.epicardium;
   Discretisation out = nested_discretisation(anatomy, scene, model.space, points);
   out.pressure_mass = model.pressure_mass;
+  out.correction = model.correction;
   return out;
 }
 
