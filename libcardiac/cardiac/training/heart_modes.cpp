@@ -83,15 +83,21 @@ NestedSpace HeartModes::space(const std::vector<FullState>& path, const std::vec
     for (const FullState& s : *list) states.push_back(&s);
   const auto count = static_cast<Eigen::Index>(states.size()), first = std::ssize(path);
   const Eigen::Index nodes = nabla_.cols();
-  const Eigen::LDLT<Matrix> frames(frame_metric_);
+  const bool with_frames = frame_metric_.size() > 0;
+  const Eigen::LDLT<Matrix> frames(with_frames ? frame_metric_ : Matrix::Identity(1, 1));
 
   // What the frames leave of each state over its norm: nodal values and gradients.
   Matrix rests(3 * nodes, count), slopes(3 * nabla_.rows(), count);
   for (Eigen::Index s = 0; s < count; ++s) {
     const Vector& u = states[static_cast<std::size_t>(s)]->u;
     const Matrix own = gradient(u);
-    const Matrix c = frames.solve(frame_gradients_.transpose() * own);
     const double norm = own.norm();
+    if (!with_frames) {
+      rests.col(s) = u / norm;
+      slopes.col(s) = flattened(own) / norm;
+      continue;
+    }
+    const Matrix c = frames.solve(frame_gradients_.transpose() * own);
     rests.col(s) = (u.reshaped(3, nodes) - (affine_.frames * c).transpose()).reshaped() / norm;
     slopes.col(s) = flattened(own - frame_gradients_ * c) / norm;
   }
