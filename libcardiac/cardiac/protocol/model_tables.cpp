@@ -274,8 +274,8 @@ Table tissue_table() {
       .key("bfs", &Tissue::bfs,
            of_law(
                "guccione", "", above_zero(1000), "shear stiffness in Q (see C_kPa)",
-               "law Guccione 1991; value chosen for the longitudinal strain of a healthy beat: GLS -14.6 %, "
-               "with the 4 of Land 2015, problem 3, -13.9 %"))
+               "law Guccione 1991; value chosen for the longitudinal strain of a healthy beat: GLS -13.7 %, "
+               "with the 4 of Land 2015, problem 3, -13.0 %"))
       .key("a_kPa", &Tissue::a_kPa, ogden("kPa", 1000, "a of a/(2b) (exp(b (I1 − 3)) − 1)"))
       .key("b", &Tissue::b, ogden("", 200, "b of the isotropic term (see a_kPa)"))
       .key("a_f_kPa", &Tissue::a_f_kPa, ogden("kPa", 1000, "a_f of a_f/(2b_f) (exp(b_f (I4f − 1)²) − 1)"))
@@ -337,9 +337,9 @@ Table fibres_table() {
                                    "the usual names (sheet, s0, sheet_normal, n0, …), if there are any");
   sheet_array.also = {along_sheets()};
   const std::string healthy =
-      "Streeter 1969: 60 and -60; 70 and -70 for the longitudinal strain of a healthy beat: GLS -14.6 %, "
+      "Streeter 1969: 60 and -60; 70 and -70 for the longitudinal strain of a healthy beat: GLS -13.7 %, "
       "with 60 "
-      "-11.6 %";
+      "-10.6 %";
   TableBuilder table("fibres", "Direction of the muscle fibres.", &Protocol::fibres);
   table
       .key("source", &Fibres::source,
