@@ -55,7 +55,7 @@ struct Found {
 };
 
 Found found_on(bool two_ventricles, double misfit_deg) {
-  if (two_ventricles) return {"two ventricles", "7 to 12", "5 to 8"};
+  if (two_ventricles) return {"two ventricles", "7 to 12", "5 to 10"};
   if (misfit_deg > kMuscles_deg) return {"a wall with muscles that stand into the cavity", "17", "15"};
   if (misfit_deg > kTurningAxes_deg) return {"an irregular left ventricle", "9", "6"};
   return {"an imaged left ventricle", "5", "3"};
