@@ -16,6 +16,7 @@
 #include <cardiac/protocol/build_anatomy.hpp>
 #include <polyaffine/core/atomic_file.hpp>
 
+#include "bench_hearts.hpp"
 #include "box_mesh.hpp"
 #include "ellipsoid_mesh.hpp"
 #include "example_data.hpp"
@@ -30,7 +31,8 @@ struct BenchOptions {
   std::string scene;
   std::filesystem::path out = "results/bench";
   std::vector<std::string> settings;
-  std::filesystem::path protocol = "protocols/healthy_lv.toml";
+  std::filesystem::path protocol = "protocols/healthy_lv.toml", hearts;
+  std::vector<std::string> presets{"fast", "accurate"};
   bool quick = false, quiet = false;
 };
 
@@ -55,15 +57,24 @@ void print_row(const BenchRow& row) {
   std::cout << std::endl;
 }
 
-// On a coarse mesh of the same shape, one beat only, when it shall be quick.
+// One beat only when it shall be quick, of one ventricle on a coarse mesh of the same shape.
 SceneResult beat(const BenchOptions& options) {
+  const bool two = options.scene == kBivBeat;
   BeatContext context;
-  context.protocol = [&](std::vector<std::string> settings) {
+  context.name = options.scene;
+  context.heart = two ? "biv" : options.protocol.stem().string();
+  context.presets = options.presets;
+  context.protocol = [&options, two](std::vector<std::string> settings) {
     if (options.quick) settings.insert(settings.begin(), "time.max_beats=1");
-    return load_protocol(given_or_example(options.protocol), settings);
+    if (!two) return load_protocol(given_or_example(options.protocol), settings);
+    settings.insert(
+        settings.begin(),
+        "mesh.file=" + std::filesystem::absolute(given_or_example("meshes/healthy_biv_coarse.vtu")).string());
+    return load_protocol(given_or_example("protocols/healthy_biv.toml"), settings);
   };
-  context.anatomy = [&](const Protocol& protocol) {
-    if (options.quick) return build_anatomy(structured_ellipsoid(human_lv(), {6, 12, 1}).mesh, protocol);
+  context.anatomy = [&options, two](const Protocol& protocol) {
+    if (options.quick && !two)
+      return build_anatomy(structured_ellipsoid(human_lv(), {6, 12, 1}).mesh, protocol);
     check_mesh_file(protocol);
     std::vector<std::string> warnings;
     Anatomy anatomy = load_anatomy(protocol, warnings);
@@ -95,7 +106,7 @@ void bench(const BenchOptions& options) {
     polyaffine::write_atomically(options.out / "bench.md", bench_markdown(results));
     polyaffine::write_atomically(options.out / "bench.svg", bench_svg(results));
   };
-  if (options.scene == kBeat) return add(beat(options));
+  if (options.scene == kBeat || options.scene == kBivBeat) return add(beat(options));
   const auto chosen = [&](const std::string& name) { return options.scene.empty() || options.scene == name; };
   const auto run = [&](const auto& solve) {
     ProgressLine line(options.quiet);
@@ -105,6 +116,14 @@ void bench(const BenchOptions& options) {
   if (chosen(kCubeBench)) run(run_cube_scene);
   for (const BenchScene& scene : bench_scenes())
     if (chosen(scene.group)) run([&](const BenchContext& c) { return run_scene(scene, c); });
+  const HeartSource hearts = heart_source(heart_folder(options.hearts), options.out / "hearts");
+  for (const HeartScene& scene : heart_scenes()) {
+    if (options.scene != scene.group) continue;
+    ProgressLine line(options.quiet);
+    context.progress = [&](const std::string& what, double fraction) { line(what, fraction); };
+    context.presets = options.presets;
+    if (const auto result = run_heart_scene(scene, hearts, context)) add(*result);
+  }
 }
 
 }  // namespace
@@ -117,8 +136,15 @@ void add_bench_command(CLI::App& app) {
     if (!names.empty() && names.back() == scene.group) continue;
     names.push_back(scene.group);
   }
+  for (const HeartScene& scene : heart_scenes())
+    if (names.back() != scene.group) names.push_back(scene.group);
   names.emplace_back(kBeat);
-  command->add_option("SCENE", options->scene, "one scene only; all but beat, which takes long, without it")
+  names.emplace_back(kBivBeat);
+  command
+      ->add_option(
+          "SCENE", options->scene,
+          "one scene only; without it all of ellipsoids and cubes, not the beats and real hearts, which "
+          "take long")
       ->check(CLI::IsMember(names));
   command->add_option("--out", options->out, "folder of bench.csv, bench.md and bench.svg")
       ->type_name("DIR")
@@ -128,6 +154,13 @@ void add_bench_command(CLI::App& app) {
       ->allow_extra_args(false);
   command->add_option("--protocol", options->protocol, "protocol of the beat")
       ->type_name("FILE")
+      ->capture_default_str();
+  command
+      ->add_option("--hearts", options->hearts,
+                   "folder of hearts of other origin (default: CARDIAC_HEARTS of the environment, ../shared)")
+      ->type_name("DIR");
+  command->add_option("--presets", options->presets, "reduced models of beats and real hearts")
+      ->delimiter(',')
       ->capture_default_str();
   command->add_flag("--quick", options->quick, "small meshes, fewer models");
   command->add_flag("--quiet", options->quiet, "no progress, no table");

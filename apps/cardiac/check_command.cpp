@@ -37,6 +37,8 @@ void check(const CheckOptions& options) {
   print_line("axes",
              protocol.reduction.weights == protocol::Weights::tents && heart_axes ? "heart" : "cartesian");
   print_line("radial axis, off by", radial_misfit_deg(*anatomy), "degrees from the way through the wall");
+  if (const std::string text = untrained_warning(*anatomy, protocol); !text.empty())
+    axes_warnings.push_back(text);
   print_warnings(axes_warnings);
   print_line("displacement unknowns", found.displacements);
   if (found.inf_sup) {

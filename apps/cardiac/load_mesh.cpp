@@ -7,6 +7,7 @@
 #include <cardiac/fibres/file_fibres.hpp>
 #include <cardiac/protocol/build_anatomy.hpp>
 #include <cardiac/protocol/names.hpp>
+#include <cardiac/reduction/axes_check.hpp>
 #include <polyaffine/core/error.hpp>
 
 #include "biventricle_mesh.hpp"
@@ -115,20 +116,38 @@ Anatomy load_anatomy(const Protocol& protocol, std::vector<std::string>& warning
   return with_fibres(load_heart(protocol, warnings), protocol, warnings);
 }
 
+namespace {
+
+// Whether one ventricle leaves its reduced model no choice but Cartesian axes, for which the presets have
+// functions of their own.
+bool turns_to_cartesian(const Anatomy& anatomy, const Protocol& protocol,
+                        std::vector<std::string>& warnings) {
+  const auto& reduction = protocol.reduction;
+  return reduction.method == protocol::Method::polyaffine && reduction.weights == protocol::Weights::tents &&
+         reduction.axes == protocol::Axes::automatic && anatomy.coordinates->right() == nullptr &&
+         axes_of(anatomy, protocol, warnings) == protocol::Axes::cartesian;
+}
+
+}  // namespace
+
 Protocol load_input(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                     const WallSizeRule& size) {
   Protocol out = load_protocol(file, overrides);
   check_mesh_file(out);
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings, all = overrides;
   const HeartMesh heart = load_heart(out, warnings, size);
   if (out.scheme_assumed) {
     const bool two = heart.file.mesh.surface({kRvEndocardium}).cols() > 0;
-    std::vector<std::string> all = overrides;
     all.push_back("anatomy.scheme=" +
                   protocol::name_of(two ? protocol::Scheme::aha29 : protocol::Scheme::aha17));
     out = load_protocol(file, all);
   }
-  out.heart = std::make_shared<const Anatomy>(with_fibres(heart, out, warnings));
+  const auto anatomy = std::make_shared<const Anatomy>(with_fibres(heart, out, warnings));
+  if (turns_to_cartesian(*anatomy, out, warnings)) {
+    all.emplace_back("reduction.axes=cartesian");
+    out = load_protocol(file, all);
+  }
+  out.heart = anatomy;
   out.warnings.insert(out.warnings.end(), warnings.begin(), warnings.end());
   return out;
 }

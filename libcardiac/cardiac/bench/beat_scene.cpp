@@ -52,7 +52,7 @@ BeatErrors beat_errors(const Beat& reference, const Beat& beat) {
   out.gls_points = beat.result().strain.gls_percent - reference.result().strain.gls_percent;
   const auto a = peaks(reference.result()), b = peaks(beat.result());
   for (std::size_t s = 0; s < a.size(); ++s) {
-    double& worst = s + 1 == kAhaSegments ? out.apex_peak_strain : out.peak_strain;
+    double& worst = s + 1 == kAhaSegments ? out.apex_peak_strain : out.peak_strain;  // the right wall too
     for (const auto strain :
          {&SegmentPeaks::longitudinal, &SegmentPeaks::circumferential, &SegmentPeaks::radial})
       worst = std::max(worst, std::abs((a[s].*strain).value - (b[s].*strain).value));
@@ -61,10 +61,12 @@ BeatErrors beat_errors(const Beat& reference, const Beat& beat) {
   return out;
 }
 
-BenchRow make_row(const Beat& reference, const Beat& beat, const Yardstick& yardstick) {
+BenchRow make_row(const BeatContext& context, const Beat& reference, const Beat& beat,
+                  const Yardstick& yardstick) {
   const bool reduced = beat.model().discretisation.frame_basis != nullptr;
   BenchRow row;
-  row.scene = kBeat;
+  row.scene = context.name;
+  row.heart = context.heart;
   row.method = reduced ? "polyaffine" : "fem_p2";
   if (reduced) {
     row.preset = protocol::name_of(beat.reduction.preset);
@@ -85,6 +87,9 @@ BenchRow make_row(const Beat& reference, const Beat& beat, const Yardstick& yard
   row.errors = yardstick.errors(beat.model(), beat.end_systole);
   row.beat = beat_errors(reference, beat);
   row.speedup_over_fem = reference.solve_s / beat.solve_s;
+  if (reduced && beat.solve_s < reference.solve_s)
+    row.break_even_solves =
+        beat.setup_s / ((reference.solve_s - beat.solve_s) / static_cast<double>(reference.result().beats));
   return row;
 }
 
@@ -98,17 +103,16 @@ SceneResult run_beat_scene(const BeatContext& context) {
   if (!reference.path().completed)
     throw polyaffine::ComputationError("bench: the full-order beat " + reference.path().stop_reason);
   const Yardstick yardstick(reference.model(), reference.end_systole);
-  SceneResult out{kBeat, "A beat", "", {}};
+  SceneResult out{context.name, context.name == kBeat ? "A beat" : "A beat of two ventricles", "", {}};
   const auto add = [&](const BenchRow& row) {
     out.rows.push_back(row);
     context.on_row(row);
   };
-  add(make_row(reference, reference, yardstick));
-  for (const char* preset : {"fast", "accurate"}) {
-    std::vector<std::string> settings{"reduction.method=polyaffine",
-                                      std::string("reduction.preset=") + preset};
+  add(make_row(context, reference, reference, yardstick));
+  for (const std::string& preset : context.presets) {
+    std::vector<std::string> settings{"reduction.method=polyaffine", "reduction.preset=" + preset};
     settings.insert(settings.end(), context.settings.begin(), context.settings.end());
-    add(make_row(reference, run(context, anatomy, settings), yardstick));
+    add(make_row(context, reference, run(context, anatomy, settings), yardstick));
   }
   const BenchRow& first = out.rows.front();
   out.reference = first.method + " on " + std::to_string(first.mesh_tets) + " tets, " +

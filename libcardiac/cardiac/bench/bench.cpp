@@ -13,10 +13,6 @@
 namespace cardiac {
 namespace {
 
-// Solves are repeated until they took this long together, at most so often.
-constexpr double kLongEnough_s = 0.5;
-constexpr int kRepeats = 5;
-
 struct ModelChoice {
   std::string method;
   std::size_t mesh;
@@ -122,23 +118,13 @@ CurvedMesh make_mesh(const BenchScene& scene, const MeshChoice& choice, const Be
   return out;
 }
 
-BenchModel::Solution timed_solution(const BenchModel& model) {
-  BenchModel::Solution out = model.solve();
-  std::vector<double> times{out.solve_s};
-  double total = out.solve_s;
-  while (total < kLongEnough_s && times.size() < kRepeats) {
-    times.push_back(model.solve().solve_s);
-    total += times.back();
-  }
-  std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2), times.end());
-  out.solve_s = times[times.size() / 2];
-  return out;
-}
-
 BenchRow make_row(const BenchScene& scene, const std::string& method, const BenchModel& model,
                   const BenchModel::Solution& solution, const Yardstick& yardstick) {
   BenchRow row;
   row.scene = scene.name;
+  row.heart = scene.to_wall       ? "asymmetric_ellipsoid"
+              : scene.other_heart ? "human_ellipsoid"
+                                  : "land_ellipsoid";
   row.method = method;
   row.preset = model.preset();
   row.integration = model.integration();
@@ -157,14 +143,17 @@ BenchRow make_row(const BenchScene& scene, const std::string& method, const Benc
   return row;
 }
 
+}  // namespace
+
 void fill_speedups(std::vector<BenchRow>& rows) {
   for (BenchRow& row : rows)
     for (const BenchRow& other : rows)
-      if (other.method == "fem_p2" && other.mesh_tets == row.mesh_tets && other.converged && row.converged)
+      if (other.method == "fem_p2" && other.mesh_tets == row.mesh_tets && other.converged && row.converged) {
         row.speedup_over_fem = other.solve_s / row.solve_s;
+        if (row.method == "polyaffine" && row.solve_s < other.solve_s)
+          row.break_even_solves = row.setup_s / (other.solve_s - row.solve_s);
+      }
 }
-
-}  // namespace
 
 SceneResult run_scene(const BenchScene& scene, const BenchContext& context) {
   const polyaffine::SingleThread single_thread;
@@ -187,7 +176,7 @@ SceneResult run_scene(const BenchScene& scene, const BenchContext& context) {
         told += (told.empty() ? "" : "; ") + setting;
       }
     auto model = std::make_unique<BenchModel>(scene, *mesh, settings);
-    const BenchModel::Solution solution = timed_solution(*model);
+    const BenchModel::Solution solution = BenchModel::timed([&] { return model->solve(); });
     if (!reference) {
       if (!solution.converged)
         throw polyaffine::ComputationError("bench: the reference solution of " + scene.name +

@@ -32,8 +32,16 @@ struct BenchRow {
   double speedup_over_fem = std::numeric_limits<double>::quiet_NaN();
   int load_steps = 0, newton_iterations = 0;
   std::optional<BeatErrors> beat{};
+  std::string heart{};              ///< what the mesh is of
+  int setup_full_order_solves = 0;  ///< that the set-up of the model needed; 0: untrained
+  /// Solutions (of a beat: beats) after which the set-up has paid against quadratic elements on the same
+  /// tets.
+  double break_even_solves = std::numeric_limits<double>::quiet_NaN();
   bool converged = false;  ///< if not: times and iterations up to the failure, no errors
 };
+
+/// The times of quadratic elements over those of the models on the same tets, and what follows from them.
+void fill_speedups(std::vector<BenchRow>& rows);
 
 /// All rows of a scene and the solution they are compared with.
 struct SceneResult {
@@ -45,6 +53,7 @@ struct BenchContext {
   bool quick = false;  ///< smaller meshes, fewer models
   std::function<polyaffine::TetMesh(const TruncatedEllipsoid& shape, double size_mm)> mesh_ellipsoid;
   std::function<polyaffine::TetMesh(const polyaffine::Vec3& size_mm, double edge_mm)> mesh_box;
+  std::vector<std::string> presets{"fast", "accurate"};  ///< of the reduced models on real hearts
   std::vector<std::string> settings;  ///< key=value for the reduced models, on top of everything else
   std::function<void(const std::string& what, double fraction)> progress = [](const auto&, double) {};
   std::function<void(const BenchRow&)> on_row = [](const auto&) {};

@@ -20,7 +20,9 @@ void add_row(const BenchRow& row, CsvWriter& csv) {
       << row.integration << known(row.errors.compliance_ratio) << row.load_steps << row.newton_iterations
       << (row.converged ? "yes" : "no");
   csv.quoted(row.settings) << beat.ef_points << beat.gls_points << beat.peak_strain << beat.apex_peak_strain
-                           << beat.real_time_factor;
+                           << beat.real_time_factor << row.setup_full_order_solves
+                           << known(row.errors.rv_volume_percent) << known(row.errors.right_strain)
+                           << row.heart << row.break_even_solves;
   csv.end_row();
 }
 
@@ -83,7 +85,8 @@ std::string bench_csv(const std::vector<SceneResult>& results) {
       "scene,method,preset,mesh_tets,control_nodes,dofs,integration_points,setup_s,solve_s,cavity_ratio,"
       "displacement_error_percent,volume_error_percent,max_segment_strain_error,apex_strain_error,"
       "speedup_over_fem,integration,compliance_ratio,load_steps,newton_iterations,converged,settings,"
-      "ef_error_points,gls_error_points,peak_strain_error,apex_peak_strain_error,real_time_factor");
+      "ef_error_points,gls_error_points,peak_strain_error,apex_peak_strain_error,real_time_factor,"
+      "setup_full_order_solves,rv_volume_error_percent,right_strain_error,heart,break_even_solves");
   for (const SceneResult& r : results)
     for (const BenchRow& row : r.rows) add_row(row, csv);
   return csv.text();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -42,6 +43,11 @@ class BenchModel {
   };
   /// Follows the scene's path from zero.
   Solution solve() const;
+  /// Follows any path of loads from zero, with the options of all scenes.
+  static Solution solve(const Ventricle& ventricle, const std::vector<WallLoad>& path,
+                        polyaffine::LinearSystem& linear);
+  /// A solution with the median time of some, where one takes no half second.
+  static Solution timed(const std::function<Solution()>& solve);
 
  private:
   protocol::Reduction reduction_;

@@ -142,8 +142,7 @@ std::shared_ptr<const polyaffine::FieldEnergy> build_wall(const Anatomy& anatomy
   }
   if (tissue.viscosity_kPa_ms > 0 && scene.contraction)
     laws.push_back(std::make_shared<polyaffine::KelvinVoigt>(tissue.viscosity_kPa_ms));
-  return std::make_shared<polyaffine::FieldEnergy>(std::move(table), std::move(laws), std::move(pressure),
-                                                   discretisation.correction);
+  return std::make_shared<polyaffine::FieldEnergy>(std::move(table), std::move(laws), std::move(pressure));
 }
 
 }  // namespace cardiac

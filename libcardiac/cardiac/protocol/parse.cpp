@@ -185,7 +185,7 @@ Protocol parse_protocol(const std::string& text, const std::filesystem::path& so
   const Place place = place_in(entries, source.string());
   fill_scheme(protocol);
   check_rules(protocol, place);
-  fill_presets(protocol);
+  fill_presets(protocol, protocol.anatomy.scheme == Scheme::aha29);
   const Entry local{"reduction", 0, "local_bulk_modulus_kPa", {}, {}, {}};
   if (std::ranges::none_of(entries, [&](const Entry& entry) { return entry.same_place(local); }))
     raise_local_bulk_modulus(protocol.anatomy.scheme == Scheme::aha29, protocol);

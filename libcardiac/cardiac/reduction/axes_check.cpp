@@ -44,4 +44,36 @@ scene::Axes axes_of(const Anatomy& anatomy, const Scene& scene, std::vector<std:
   return asked == Axes::heart ? Axes::heart : Axes::cartesian;
 }
 
+namespace {
+
+// Misfit of the radial axes, degrees, up to which a left ventricle is as smooth as the drawn ones (0.6
+// to 1.0), and from which muscles stand into the cavity.
+constexpr double kDrawn_deg = 1.2, kMuscles_deg = 10;
+
+struct Found {
+  const char *heart, *fast, *accurate;  // displacement off full order at the worse of filling and systole, %
+};
+
+Found found_on(bool two_ventricles, double misfit_deg) {
+  if (two_ventricles) return {"two ventricles", "7 to 12", "5 to 10"};
+  if (misfit_deg > kMuscles_deg) return {"a wall with muscles that stand into the cavity", "17", "15"};
+  if (misfit_deg > kTurningAxes_deg) return {"an irregular left ventricle", "9", "6"};
+  return {"an imaged left ventricle", "5", "3"};
+}
+
+}  // namespace
+
+std::string untrained_warning(const Anatomy& anatomy, const Scene& scene) {
+  const bool two = anatomy.coordinates->right() != nullptr;
+  const double misfit = two ? 0 : radial_misfit_deg(anatomy);
+  if (!two && misfit <= kDrawn_deg) return "";
+  const Found found = found_on(two, misfit);
+  const bool fast = scene.reduction.preset == scene::Preset::fast;
+  return std::string("reduction.preset: ") + (fast ? "fast" : "accurate") +
+         " is not trained on this heart; on " + found.heart + " it was " +
+         (fast ? found.fast : found.accurate) +
+         " % of displacement off full order. --verify tells it of this heart; preset \"tuned\" (cardiac "
+         "reduce) builds a model for it once";
+}
+
 }  // namespace cardiac

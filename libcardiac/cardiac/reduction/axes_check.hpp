@@ -23,4 +23,9 @@ inline constexpr double kTurningAxes_deg = 5;
 /// that is added to the warnings.
 scene::Axes axes_of(const Anatomy& anatomy, const Scene& scene, std::vector<std::string>& warnings);
 
+/// What to say of an untrained preset on a heart other than a smooth left ventricle: by how much it was off
+/// full order on hearts of its kind (docs/accuracy.md). A left ventricle is smooth as the drawn ones are by
+/// its radial_misfit_deg; of two ventricles that says little.
+std::string untrained_warning(const Anatomy& anatomy, const Scene& scene);
+
 }  // namespace cardiac

@@ -141,6 +141,12 @@ BiventricularFrames::Sector BiventricularFrames::sector(std::size_t lower, doubl
           std::clamp((psi - breaks[above - 1]) / width, 0.0, 1.0)};
 }
 
+bool BiventricularFrames::at_apex(int cell) const {
+  if (cell < num_cells()) return SegmentFrames::at_apex(cell);
+  const int right_cells = kSectors * static_cast<int>(rows_.size());
+  return (cell - num_cells()) % right_cells < kSectors;  // of the lowest rows
+}
+
 // Cells are numbered in this order: those of the left frames; those of the right ones; and those in which
 // both act, one for each pair of a left cell and a right one.
 SegmentFrames::PointCell BiventricularFrames::point_cell(int tet, const Vec4& barycentric) const {

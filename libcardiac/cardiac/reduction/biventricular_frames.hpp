@@ -27,6 +27,7 @@ class BiventricularFrames : public SegmentFrames {
 
   int num_frames() const override { return first_base_ + (base_frames() ? layout().right.back().nodes : 0); }
   polyaffine::FramesAtPoint sample(int tet, const polyaffine::Vec4& barycentric) const override;
+  bool at_apex(int cell) const override;
   PointCell point_cell(int tet, const polyaffine::Vec4& barycentric) const override;
   /// Whether a frame belongs to the right free wall.
   bool is_right(int frame) const;

@@ -121,6 +121,7 @@ polyaffine::FramesAtPoint BorderFrames::sample(int tet, const Vec4& barycentric)
   if (left.value == 0) return out;
   const CoordinateSample at = coordinates.sample(tet, barycentric);
   const Vec3 X = coordinates.position(tet, barycentric);
+  const double depth = frames_->layout().rings.front().thickness / frames_->layout().length;
   for (std::size_t i = 0; i < hats_.size(); ++i) {
     const double from_top = std::remainder(at.psi - hats_[i].angle, 2 * kPi);
     const double around = 1 - std::abs(from_top) / hats_[i].half_width;
@@ -133,6 +134,8 @@ polyaffine::FramesAtPoint BorderFrames::sample(int tet, const Vec4& barycentric)
     frame.weight = left.value * u.value * around;
     frame.weight_gradient = u.value * around * left.gradient + left.value * around * u.gradient +
                             left.value * u.value * around_gradient;
+    frame.xi[2] = depth * (at.t - 0.5);
+    frame.xi_gradient.row(2) = depth * at.grad_t.transpose();
     out.frames.push_back(frame);
   }
   return out;

@@ -13,7 +13,8 @@ namespace cardiac {
 /// weight is a hat, 1 there and 0 at the nodes around it: along the wall the tent of the ring, or over a
 /// border between two rings a/(a + b), with the distances a to the ring and b to the border, both in u;
 /// around the wall the tent of the nodes, or a hat over a border. The weights of the frames themselves stay
-/// as they are, so those of all do not sum to one; further frames are meant for the function 1 alone (ξ = 0).
+/// as they are, so those of all do not sum to one; further frames are meant for functions of the depth alone,
+/// ξ = (0, 0, t − ½) times the thickness of the apical ring over the layout's length.
 /// With a right ventricle the hats fade like the left frames' weights.
 class BorderFrames : public polyaffine::FrameField {
  public:

@@ -10,7 +10,7 @@
 #include <cardiac/tissue/fibre_axes.hpp>
 #include <polyaffine/kinematics/basis.hpp>
 #include <polyaffine/linear/linear_system.hpp>
-#include <polyaffine/system/field_energy.hpp>
+#include <polyaffine/system/pressure_space.hpp>
 
 namespace cardiac {
 
@@ -34,8 +34,6 @@ struct Discretisation {
   std::shared_ptr<const polyaffine::Matrix>
       element_pressures;  ///< pressure functions × tets of a nested model; null: see pressure_space
   polyaffine::Matrix pressure_mass;  ///< of these functions over the elements, mm³
-  std::shared_ptr<const polyaffine::LinearCorrection>
-      correction;  ///< of the points of a tuned model; null: none
   polyaffine::WallPoints points;
   std::vector<CavitySurface> cavities;          ///< that have a load: the left ventricle's first
   polyaffine::SurfacePoints epicardium_points;  ///< empty unless a spring acts there

@@ -1,7 +1,6 @@
 #include "cardiac/reduction/nested_space.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -77,12 +76,15 @@ NestedSpace affine_space(const Anatomy& anatomy, const Scene& scene) {
   NestedSpace out;
   out.frame_basis = std::make_shared<polyaffine::FrameBasis>(field, functions);
   out.frames = at_nodes(anatomy, *out.frame_basis);
-  if (std::getenv("NOFRAMES")) out.frames = polyaffine::NodalFunctions(values.rows(), 0);
   out.modes = Matrix(3 * values.rows(), 0);
+  if (!scene.reduction.affine_frames) {
+    out.frames = polyaffine::NodalFunctions(values.rows(), 0);
+    out.pressures = Matrix::Ones(1, anatomy.mesh.num_tets());
+    return out;
+  }
   const std::vector<int> region = region_tets(anatomy.mesh, *anatomy.coordinates, layout);
   out.pressures = Matrix::Zero(layout.num_nodes(), std::ssize(region));
   for (std::size_t t = 0; t < region.size(); ++t) out.pressures(region[t], static_cast<Eigen::Index>(t)) = 1;
-  if (std::getenv("NOFRAMES")) out.pressures = Matrix::Ones(1, std::ssize(region));
   return out;
 }
 

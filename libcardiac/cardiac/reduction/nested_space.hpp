@@ -6,18 +6,19 @@
 namespace cardiac {
 
 /// The reduced space of one heart that is nested in its full-order model, so that the reduced model is a
-/// Galerkin projection of that: the affine maps of the control frames and modes of the heart, both by their
-/// values at the nodes of the quadratic elements, and pressures that are constant in each element.
+/// Galerkin projection of that: modes of the heart and, if the scene keeps them, the affine maps of the control
+/// frames, both by their values at the nodes of the quadratic elements, and pressures that are constant in each
+/// element.
 struct NestedSpace {
   std::shared_ptr<const polyaffine::FrameBasis> frame_basis;  ///< Cartesian axes, functions 1, l, c, t
   polyaffine::NodalFunctions frames;                          ///< its functions, zero on the base
   polyaffine::Matrix modes;      ///< 3 · nodes × modes, their number a multiple of three
   int num_modes = 0;             ///< without the columns of zeros that fill it up
-  polyaffine::Matrix pressures;  ///< functions × elements: those of the segments, then modes
+  polyaffine::Matrix pressures;  ///< functions × elements: of the segments or the wall, then modes
 };
 
-/// The space without modes: the affine functions of the frames at the nodes of the scene's layout (tents;
-/// those that depend on others are left out) and one pressure a segment.
+/// The space without modes. With affine frames their functions at the nodes of the scene's layout (tents;
+/// those that depend on others are left out) and one pressure a segment, else no function and one pressure.
 NestedSpace affine_space(const Anatomy& anatomy, const Scene& scene);
 
 /// The model of a space with all integration points of the full-order one, whose `full` is given.

@@ -6,9 +6,13 @@
 namespace cardiac {
 namespace {
 
-// Fibres turn by about 120° through the depth, so every cell has at least this many Gauss points there and
-// keeps polynomials at least up to this degree exact.
-constexpr int kDepthPoints = 3, kDepthDegree = 8;
+// Fibres turn by about 140° through the depth, so every cell has at least this many Gauss points there and
+// keeps polynomials at least up to this degree exact. With three points the fast preset is 5.5 % of
+// displacement off at end systole on a healthy ventricle, with four 2.8 %.
+constexpr int kDepthPoints = 4, kDepthDegree = 8;
+// At the axis, where all three directions are alike, three points do around it and through the depth, but not
+// outwards, where the tents of the cap and of the first ring meet.
+constexpr int kApexPoints = 3;
 
 // Highest power of the frames' functions along, around and through the wall, whatever the axes of their
 // coefficients; at least 1. The cap is left out: its functions, of degree two at most, lie in cells with
@@ -28,16 +32,16 @@ std::array<int, 3> highest_powers(const polyaffine::FrameBasis& basis, int cap) 
 PointCounts point_counts(const polyaffine::FrameBasis& basis, const FrameLayout& layout, bool sigmoid) {
   const auto [along, around, through] = highest_powers(basis, layout.cap());
   // More rings than AHA's lessen the error along the wall. What the points add to it must shrink with it: one
-  // more point through the depth, where the cells stay as thick as they are, and one more on surfaces.
+  // more point at the axis, where the cells stay as thick as they are, and one more on surfaces.
   const bool more_rings = std::ssize(layout.rings) > kAhaRings;
   // Functions of higher degree let the wall bend within a cell.
   const bool bends = along > 1 || around > 1;
 
   PointCounts out;
-  const int depth = std::max(more_rings ? kDepthPoints + 1 : kDepthPoints, through + 1);
-  out.wall = {along + 1, around + 1, depth};
+  out.wall = {along + 1, around + 1, std::max(kDepthPoints, through + 1)};
   // The wall bends most at the axis, where along, around and through mean the same.
-  out.wall_at_apex = {depth, depth, depth};
+  const int depth = std::max(more_rings ? kApexPoints + 1 : kApexPoints, through + 1);
+  out.wall_at_apex = {std::max(kDepthPoints, depth), depth, depth};
   // No other point makes up for the error of a point on a surface, so there is one more where the wall bends.
   const int surface = bends || more_rings ? 3 : 2, surface_at_apex = bends ? depth + 1 : depth;
   out.surface = {surface, surface, 1};

@@ -45,13 +45,18 @@ std::vector<std::vector<Monomial>> independent(const SegmentFrames& frames,
   return out;
 }
 
-// The frame of the cap has Cartesian axes, in which longitudinal and circumferential mean nothing: the
-// functions of degree two at most, each with l and c exchanged besides.
+int degree(const Monomial& m) {
+  return m[0] + m[1] + m[2];
+}
+
+// The frame of the cap has Cartesian axes, in which longitudinal, circumferential and radial mean nothing:
+// the functions of degree one at most and, where some have a higher one, all of degree two.
 std::vector<Monomial> of_cap(const std::vector<Monomial>& functions) {
   std::vector<Monomial> out;
   for (const Monomial& m : functions)
-    for (const Monomial& own : {m, Monomial{m[1], m[0], m[2]}})
-      if (m[0] + m[1] + m[2] <= 2 && std::find(out.begin(), out.end(), own) == out.end()) out.push_back(own);
+    if (degree(m) <= 1) out.push_back(m);
+  if (std::ranges::any_of(functions, [](const Monomial& m) { return degree(m) > 1; }))
+    out.insert(out.end(), {{0, 0, 2}, {1, 0, 1}, {0, 1, 1}, {2, 0, 0}, {0, 2, 0}, {1, 1, 0}});
   return out;
 }
 
@@ -82,7 +87,7 @@ std::vector<FrameFunctions> tent_functions(const SegmentFrames& frames, const st
 }
 
 // Tent weights. Pressures do without the frames at the base, where nothing holds them; border functions are
-// further frames with the function 1 alone, in the same axes.
+// further frames with functions of the depth alone, in the same axes.
 void add_tent_basis(const Anatomy& anatomy, const Scene& scene, Discretisation& out) {
   out.frames = tent_frames(anatomy, out.layout, true);
   out.pressure_frames = tent_frames(anatomy, out.layout, false);
@@ -92,7 +97,7 @@ void add_tent_basis(const Anatomy& anatomy, const Scene& scene, Discretisation& 
   std::shared_ptr<const polyaffine::FrameField> frames = out.frames;
   if (*scene.reduction.border_functions) {
     frames = std::make_shared<BorderFrames>(out.frames, segment_kinds(scene));
-    functions.resize(frames->num_frames(), {{{0, 0, 0}}, heart_axes});
+    functions.resize(frames->num_frames(), {{{0, 0, 0}, {0, 0, 1}, {0, 0, 2}}, heart_axes});
   }
   out.frame_basis = std::make_shared<polyaffine::FrameBasis>(frames, functions);
 }

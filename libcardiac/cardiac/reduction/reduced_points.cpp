@@ -24,6 +24,8 @@ constexpr int kStrainDegree = 2;
 // turn by about 120°; and the polynomials kept exact in a cell that is no box.
 constexpr polyaffine::CellCounts kStrainCounts{2, 2, 4};
 constexpr polyaffine::CellDegree kStrainCellDegree{4, 4, 8};
+// The same of a cell of the right wall, which is thin and part of one segment.
+constexpr polyaffine::CellDegree kRightCellDegree{2, 2, 4};
 
 std::vector<int> every_segment() {
   std::vector<int> out(kBothSegments);
@@ -140,8 +142,10 @@ WallPoints strain_points(const Anatomy& anatomy, const Discretisation& d) {
       left_wall, of_left.cell, of_left.place, cells, [](int) { return kStrainCounts; }, kStrainCellDegree);
   if (right.empty()) return out;
   const WallPoints right_wall = subset(candidates, right);
-  const CandidateCells of_right = cells_of_regions(heart, d, right_wall.tet, right_wall.barycentric);
-  append(polyaffine::compress_cells(right_wall, of_right.cell, of_right.place, kStrainCellDegree), out);
+  CandidateCells of_right = cells_of_tents(cells, right_wall.tet, right_wall.barycentric);
+  for (std::size_t q = 0; q < right.size(); ++q)
+    of_right.cell[q] = of_right.cell[q] * kBothSegments + anatomy.segment[right_wall.tet[q]] - 1;
+  append(polyaffine::compress_cells(right_wall, of_right.cell, of_right.place, kRightCellDegree), out);
   return out;
 }
 

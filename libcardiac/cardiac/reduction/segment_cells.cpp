@@ -112,7 +112,7 @@ CellPlace SegmentCells::part(const Division& division, int tet, const Vec4& bary
 bool SegmentCells::at_apex(int cell) const {
   const int parts = kAhaSegments * static_cast<int>(divisions_.size());
   const int whole = cell < parts ? divisions_[cell / kAhaSegments].cell : cell - parts;
-  return whole < frames_->num_apex_cells();
+  return frames_->at_apex(whole);
 }
 
 }  // namespace cardiac

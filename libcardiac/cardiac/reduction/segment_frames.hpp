@@ -52,7 +52,9 @@ class SegmentFrames : public polyaffine::FrameField {
   };
   virtual PointCell point_cell(int tet, const polyaffine::Vec4& barycentric) const;
   int num_cells() const { return cell_start_.back(); }
-  int num_apex_cells() const { return cell_start_[1]; }  ///< those at the axis, numbered first
+  /// Whether a cell reaches the axis of its ventricle, where the wall bends most; those of the left one are
+  /// numbered first.
+  virtual bool at_apex(int cell) const { return cell < cell_start_[1]; }
 
  private:
   // A tent at a point, and its slope in its coordinate.

@@ -64,14 +64,18 @@ Yardstick::Yardstick(const Ventricle& reference, const Vector& c)
       state_(wall_state(*reference.discretisation.basis, c, own_places(points_))),
       strain_(gauge_.green_lagrange(state_.F)),
       cavity_at_rest_(cavity_at_rest(reference)),
-      cavity_(reference.cavity_volume(c)) {}
+      cavity_(reference.cavity_volume(c)) {
+  if (reference.cavities.size() > 1) right_cavity_ = reference.cavity_volume(c, 1);
+}
 
 ModelErrors Yardstick::errors(const Ventricle& model, const Vector& c) const {
   const polyaffine::ElementLocator locator(material_elements(model));
   std::vector<MeshPoint> at;
   for (Eigen::Index q = 0; q < positions().cols(); ++q) at.push_back(locator.locate(positions().col(q)));
-  return errors(wall_state(*model.discretisation.basis, c, at), cavity_at_rest(model),
-                model.cavity_volume(c));
+  ModelErrors out =
+      errors(wall_state(*model.discretisation.basis, c, at), cavity_at_rest(model), model.cavity_volume(c));
+  if (right_cavity_ > 0) out.rv_volume_percent = 100 * (model.cavity_volume(c, 1) / right_cavity_ - 1);
+  return out;
 }
 
 ModelErrors Yardstick::errors(const WallState& state, double at_rest, double cavity) const {
@@ -82,8 +86,11 @@ ModelErrors Yardstick::errors(const WallState& state, double at_rest, double cav
   out.volume_percent = 100 * (cavity / cavity_ - 1);
   out.compliance_ratio = (cavity - at_rest) / (cavity_ - cavity_at_rest_);
   const std::vector<Mat3> strain = gauge_.green_lagrange(state.F);
-  for (int s = 1; s <= kAhaSegments; ++s) {
-    double& worst = s == kAhaSegments ? out.apex_strain : out.max_segment_strain;
+  if (static_cast<int>(strain.size()) > kAhaSegments) out.right_strain = 0;
+  for (int s = 1; s <= static_cast<int>(strain.size()); ++s) {
+    double& worst = s == kAhaSegments  ? out.apex_strain
+                    : s > kAhaSegments ? out.right_strain
+                                       : out.max_segment_strain;
     worst = std::max(worst, (strain[s - 1] - strain_[s - 1]).diagonal().cwiseAbs().maxCoeff());
   }
   return out;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include <cardiac/model/ventricle.hpp>
@@ -28,6 +29,10 @@ struct ModelErrors {
   double max_segment_strain = 0;    ///< Green–Lagrange normal strains, segments 1–16
   double apex_strain = 0;           ///< the same in segment 17
   double compliance_ratio = 0;      ///< change of the cavity's volume over the reference's
+  double rv_volume_percent = kNone;  ///< of the right cavity, signed; NaN with one ventricle
+  double right_strain = kNone;       ///< normal strains, segments 18–29; NaN with one ventricle
+
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Compares solutions with a reference at the reference's integration points, which are looked up in the
@@ -48,7 +53,7 @@ class Yardstick {
   SegmentGauge gauge_;
   WallState state_;
   std::vector<polyaffine::Mat3> strain_;
-  double cavity_at_rest_, cavity_;
+  double cavity_at_rest_, cavity_, right_cavity_ = 0;
 };
 
 }  // namespace cardiac

@@ -127,7 +127,11 @@ BeatResult describe_path(const Ventricle& ventricle, const std::vector<ControlNo
   out.completed = path.completed;
   out.stop_reason = path.stop_reason;
   out.warnings = path.warnings;
-  if (d.frames) axes_of(anatomy, scene, out.warnings);
+  if (d.frames) {
+    axes_of(anatomy, scene, out.warnings);
+    if (std::string text = untrained_warning(anatomy, scene); !text.empty())
+      out.warnings.push_back(std::move(text));
+  }
   // A trained rule keeps forces and volumes; means over segments are those of all points.
   const Ventricle& told = ventricle.all_points ? *ventricle.all_points : ventricle;
   out.segments = segment_info(told);

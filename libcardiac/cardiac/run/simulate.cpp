@@ -1,7 +1,10 @@
 #include "cardiac/run/simulate.hpp"
 
+#include <string>
 #include <utility>
+#include <vector>
 
+#include <cardiac/reduction/axes_check.hpp>
 #include <cardiac/run/build_ventricle.hpp>
 #include <cardiac/run/plausibility.hpp>
 #include <cardiac/run/statics.hpp>
@@ -36,7 +39,8 @@ HeartPath trusted_path(Ventricle& model, const Scene& scene, const RunControl& c
 Outcome simulate(const Scene& of, const RunControl& control) {
   if (!of.heart) throw polyaffine::InputError("scene: found no heart, expected a mesh with its anatomy");
   Scene scene = of;
-  fill_presets(scene);
+  std::vector<std::string> told_with_the_result;
+  fill_presets(scene, axes_of(*scene.heart, scene, told_with_the_result) == scene::Axes::cartesian);
   Outcome out;
   double setup_s = 0, solve_s = 0;
   {

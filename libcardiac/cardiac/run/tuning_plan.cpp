@@ -129,6 +129,7 @@ TuningPlan tuning_plan(const HeartPath& path, const Ventricle& untrained, const 
     if (key.es.pressures_kPa.size() > 1)
       out.path.push_back(with_cavity(load_at("", key.es, begin), "end systole, right pressure × 1.5", 1, 1.5));
     out.neighbours.push_back({kEmptied, each_segment(segments, kWeak, 1)});
+    out.neighbours.push_back({kEmptied, each_segment(segments, 1, kStiff)});
   }
   out.neighbours.push_back({kFilled, each_segment(segments, 1, kStiff)});
 

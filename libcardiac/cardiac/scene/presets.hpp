@@ -6,11 +6,13 @@
 namespace cardiac {
 
 /// The presets, written out: enrichment, pressure space and border functions that the scene does not name,
-/// and the duration of the contraction by the heart rate. The accurate preset has more functions along the
-/// wall where regions differ. What is named stays.
-void fill_presets(Scene& scene);
+/// and the duration of the contraction by the heart rate. There are more functions along the wall where
+/// regions differ and where components are Cartesian: where the scene asks for them, or leaves the axes to
+/// the heart and that wants them (axes_of; two ventricles always do). What is named stays.
+void fill_presets(Scene& scene, bool heart_wants_cartesian_axes);
 
-/// Raises the local bulk modulus where the muscle of one ventricle contracts.
+/// Raises the local bulk modulus where muscle contracts (of two ventricles only with the accurate preset),
+/// further where regions differ.
 void raise_local_bulk_modulus(bool two_ventricles, Scene& scene);
 
 /// Do the frames belong to the AHA segments, with tents as weights?

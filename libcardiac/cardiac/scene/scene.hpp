@@ -37,7 +37,8 @@ struct Reduction {
   std::optional<std::vector<double>> ring_angles_deg;  ///< rotational, of each ring's first node
   Integration integration = Integration::cells;
   int element_order = 2;  ///< of the full-order model
-  double accuracy_percent = 1;  ///< from here on: of the tuned preset; of displacement against full order
+  bool affine_frames = false;   ///< from here on of the tuned preset: frames stay unknowns beside the modes
+  double accuracy_percent = 1;  ///< of displacement against full order
   double budget_s = 900;        ///< time that its training may take
 };
 
@@ -52,7 +53,7 @@ struct Tissue {
   double mu_kPa = 3.356;                                 ///< neo_hookean
   double c1_kPa = 1.5, c2_kPa = 0.2;                     ///< mooney_rivlin
   double youngs_modulus_kPa = 10, poisson_ratio = 0.49;  ///< saint_venant_kirchhoff
-  double bulk_modulus_kPa = 1000;                        ///< every law but saint_venant_kirchhoff
+  double bulk_modulus_kPa = 10000;                       ///< every law but saint_venant_kirchhoff
   double viscosity_kPa_ms = 100;
   double density_mg_per_mm3 = 0;  ///< 0: no inertia
 };
@@ -81,12 +82,12 @@ struct Activation {
 enum class ContractionModel { bestel_clement_sorine_simplified };
 struct Contraction {
   ContractionModel model = ContractionModel::bestel_clement_sorine_simplified;
-  double contractility_kPa = 155;
+  double contractility_kPa = 150;
   double activation_rate_per_ms = 0.005;
   double relaxation_rate_per_ms = 0.03;
   std::optional<double> activation_duration_ms;  ///< set by the heart rate when the file does not name it
   double switch_width_ms = 5;
-  double cross_fibre_fraction = 0.3;
+  double cross_fibre_fraction = 0.25;
 };
 
 struct Cavities {

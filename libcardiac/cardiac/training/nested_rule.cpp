@@ -1,9 +1,7 @@
 #include "cardiac/training/nested_rule.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
-#include <cstdlib>
 
 namespace cardiac {
 
@@ -16,7 +14,6 @@ namespace {
 
 constexpr double kVolumeMatters = 3;   // a relative error of the cavity's volume counts so many times
 constexpr double kCavityShare = 0.5;   // of the accuracy of the wall
-const double kRidge = getenv("RIDGE") ? atof(getenv("RIDGE")) : 1e-4;        // of the correction, over the largest square
 constexpr int kCavityCandidates = 1200;
 
 // About `wanted` of some points, each for the same share of the whole.
@@ -95,6 +92,7 @@ NestedRuleTraining::NestedRuleTraining(FullOrder& full, const HeartModes& modes,
         candidates_of(basis_, surface.tet, surface.barycentric, surface.weights, kCavityCandidates));
     candidates_.cavities[k].points = kept(surface, cavity_points_.back());
     cavities_.emplace_back(std::ssize(cavity_points_.back().points));
+    whole_cavities_.push_back(cavity_of(basis_, nested_.cavities[k]));
   }
 }
 
@@ -117,6 +115,7 @@ bool NestedRuleTraining::add(const FullState& state) {
   if (!(at.size > 0) || !at.tangent->factorise()) return false;
   add_wall(at, state);
   for (std::size_t k = 0; k < cavities_.size(); ++k) add_cavity(at, k);
+  ++states_;
   return true;
 }
 
@@ -133,12 +132,10 @@ void NestedRuleTraining::add_wall(const Measure& at, const FullState& state) {
   const Eigen::Index n = terms.gradient.cols();
   Matrix forces(at.c.size(), n + 1);
   forces << terms.gradient, basis_.transpose(whole.gradient);
-  Target target{state.load, at.c, at.pressure, forces.col(n), {}};
-  if (mixed) target.change = space_.pressures * whole.pressure_gradient;
   if (mixed) {
     // g − M p/κ of each candidate and of all points; what the pressure's own mass adds is the same for both.
     Matrix changes(space_.pressures.rows(), n + 1);
-    changes << terms.pressure_gradient, target.change;
+    changes << terms.pressure_gradient, space_.pressures * whole.pressure_gradient;
     const auto& space = *wall.pressure_space();
     for (Eigen::Index q = 0; q < n; ++q) {
       const auto values = space_.pressures.col(candidates_.points.tet[static_cast<std::size_t>(q)]);
@@ -151,13 +148,11 @@ void NestedRuleTraining::add_wall(const Measure& at, const FullState& state) {
   }
   const Matrix moved = at.displaced(std::move(forces), nested_.fixed, root_);
   wall_.add(moved.leftCols(n), moved.col(n), moved);
-  targets_.push_back(std::move(target));
 }
 
 void NestedRuleTraining::add_cavity(const Measure& at, std::size_t cavity) {
   const auto terms = at.ventricle.cavities[cavity].volume->point_terms({at.c});
-  const Cavity whole = cavity_of(basis_, nested_.cavities[cavity]);
-  const auto all = whole.volume->evaluate({at.c});
+  const auto all = whole_cavities_[cavity].volume->evaluate({at.c});
   const double pressure = at.load.pressures_kPa[static_cast<Eigen::Index>(cavity)];
   const Eigen::Index n = terms.value.size();
   Matrix forces(at.c.size(), n + 1);
@@ -171,7 +166,7 @@ void NestedRuleTraining::add_cavity(const Measure& at, std::size_t cavity) {
 
 NestedRule NestedRuleTraining::select(double accuracy) const {
   const auto share = [&](const CubatureTraining& training, double wanted) {
-    return wanted * std::sqrt(static_cast<double>(targets_.size())) / training.norm();
+    return wanted * std::sqrt(states_) / training.norm();
   };
   NestedRule out;
   const auto& points = nested_.points;
@@ -181,7 +176,6 @@ NestedRule NestedRuleTraining::select(double accuracy) const {
     out.cavities.push_back(chosen(basis_, surface.tet, surface.barycentric, cavity_points_[k],
                                   cavities_[k].select(share(cavities_[k], kCavityShare * accuracy))));
   }
-  if (!std::getenv("NOCORR")) out.correction = correction_of(with(out));
   return out;
 }
 
@@ -190,58 +184,6 @@ Discretisation NestedRuleTraining::with(const NestedRule& rule) const {
   out.points = kept(nested_.points, rule.wall);
   for (std::size_t k = 0; k < rule.cavities.size(); ++k)
     out.cavities[k].points = kept(nested_.cavities[k].points, rule.cavities[k]);
-  out.correction = rule.correction;
-  return out;
-}
-
-// The errors e_s of the points in the states c_s are taken up by B c_s and H c_s. With the metric G = LᵀL, x =
-// L c and y = L⁻ᵀ e, each divided by ‖c_s‖_G, B = −LᵀA L minimises Σ ‖A x_s − y_s‖² + λ ‖A‖², A symmetric:
-//   A S + S A + 2λ A = Y Xᵀ + X Yᵀ,  S = X Xᵀ,
-// which the eigenvectors of S make a division; H likewise, without symmetry. λ keeps what differs between
-// states that hardly differ from making large entries.
-std::shared_ptr<const polyaffine::LinearCorrection> NestedRuleTraining::correction_of(
-    const Discretisation& points) const {
-  const auto count = std::ssize(targets_);
-  const Eigen::Index n = metric_.rows(), pressures = targets_.front().change.size();
-  Matrix X(n, count), force_errors(n, count), volume_errors(pressures, count);
-  Vector sizes(count);
-  for (Eigen::Index s = 0; s < count; ++s) {
-    const Target& target = targets_[static_cast<std::size_t>(s)];
-    const Ventricle v =
-        assemble_ventricle(full_.anatomy(), with_regions(full_.scene(), target.load), points);
-    const WallLoad load = wall_load(v, target.load);
-    const auto found = v.wall->evaluate(
-        {target.c, state_of(load.tension), nullptr, pressures > 0 ? &target.pressure : nullptr});
-    X.col(s) = root_ * target.c;
-    sizes[s] = X.col(s).norm();
-    force_errors.col(s) = found.gradient - target.force;
-    if (pressures > 0) volume_errors.col(s) = found.pressure_gradient - target.change;
-  }
-  X = X * sizes.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(X * X.transpose());
-  const Vector squares = eigen.eigenvalues().cwiseMax(0);
-  const double ridge = kRidge * squares.maxCoeff();
-  const Matrix& U = eigen.eigenvectors();
-
-  auto out = std::make_shared<polyaffine::LinearCorrection>();
-  if (pressures > 0) {
-    const Matrix scaled = volume_errors * sizes.cwiseInverse().asDiagonal();
-    const Matrix A = (scaled * X.transpose() * U) *
-                     (squares.array() + ridge).inverse().matrix().asDiagonal() * U.transpose();
-    out->volume_change = -A * root_;
-    for (Eigen::Index s = 0; s < count; ++s)
-      force_errors.col(s) += out->volume_change.transpose() * targets_[static_cast<std::size_t>(s)].pressure;
-  }
-  for (std::size_t i = 0; i < nested_.fixed.size(); ++i)
-    if (nested_.fixed[i]) force_errors.row(static_cast<Eigen::Index>(i)).setZero();
-  const Matrix Y = root_.transpose().triangularView<Eigen::Lower>().solve(force_errors) *
-                   sizes.cwiseInverse().asDiagonal();
-  const Matrix sides = U.transpose() * (Y * X.transpose() + X * Y.transpose()) * U;
-  Matrix A(n, n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index j = 0; j < n; ++j) A(i, j) = sides(i, j) / (squares[i] + squares[j] + 2 * ridge);
-  if (std::getenv("NOB")) { out->stiffness = Matrix::Zero(n, n); return out; }
-  out->stiffness = -root_.transpose() * (U * A * U.transpose()) * root_;
   return out;
 }
 

@@ -10,7 +10,6 @@ namespace cardiac {
 struct NestedRule {
   KeptPoints wall;
   std::vector<KeptPoints> cavities;
-  std::shared_ptr<const polyaffine::LinearCorrection> correction;
 };
 
 /// Trains the sparse rule of a nested model. Of the full-order points some are candidates; few are kept, with
@@ -18,8 +17,7 @@ struct NestedRule {
 /// see come out as all full-order points have them. With the tangent K of a state (pressures eliminated), D =
 /// ∂g/∂c and the metric G of the functions an error (δf, δg) counts as the displacement that it makes,
 ///   δc = K⁻¹ (δf + κ DᵀM⁻¹ δg),  ‖δc‖_G / ‖c‖_G,
-/// and likewise an error of a cavity's force p ∂V/∂c, together with that of its volume, times three. What the
-/// chosen points still miss hardly differs from one state to the next: a linear correction takes it up.
+/// and likewise an error of a cavity's force p ∂V/∂c, together with that of its volume, times three.
 class NestedRuleTraining {
  public:
   /// All of them must outlive it.
@@ -40,7 +38,6 @@ class NestedRuleTraining {
   // What the contributions of a state are measured with.
   struct Measure;
   void add_wall(const Measure& at, const FullState& state);
-  std::shared_ptr<const polyaffine::LinearCorrection> correction_of(const Discretisation& points) const;
   void add_cavity(const Measure& at, std::size_t cavity);
 
   FullOrder& full_;
@@ -51,14 +48,10 @@ class NestedRuleTraining {
   KeptPoints wall_points_;  // the candidates
   std::vector<KeptPoints> cavity_points_;
   polyaffine::Matrix metric_, root_;  // G = rootᵀ root
-  // A state as the space holds it, and what all points make of it.
-  struct Target {
-    TrainingLoad load;
-    polyaffine::Vector c, pressure, force, change;
-  };
-  std::vector<Target> targets_;
+  int states_ = 0;
   polyaffine::CubatureTraining wall_;
   std::vector<polyaffine::CubatureTraining> cavities_;
+  std::vector<Cavity> whole_cavities_;  // on all points
 };
 
 }  // namespace cardiac

@@ -17,7 +17,10 @@ namespace {
 
 constexpr int kCandidates = 3000;
 // Shares of the accuracy (of displacement in L2, where a tolerance is of its gradient).
-constexpr double kPathShare = 0.3, kNeighbourShare = 3, kPressureShare = 2, kRuleShare = 0.5;
+constexpr double kPathShare = 0.3, kNeighbourShare = 1, kRuleShare = 0.5;
+// Pressures want to be fewer than displacements: with modes alone more of them hold the wall back.
+constexpr double kPressureShare = 10, kPressureShareOfFrames = 2;
+constexpr int kMostModes = 75;
 constexpr double kRefinement = 0.6;  // of the tolerances, from round to round
 
 // How different two loads are, in pressure and tension over the largest of the plan.
@@ -64,8 +67,9 @@ class Tuning {
     solve_path();
     add_linear_answers();
     const double accuracy = control_.accuracy_percent / 100;
-    HeartModes::Options options{kPathShare * accuracy, kNeighbourShare * accuracy, kPressureShare * accuracy,
-                                60};
+    const double pressure = full_.scene().reduction.affine_frames ? kPressureShareOfFrames : kPressureShare;
+    HeartModes::Options options{kPathShare * accuracy, kNeighbourShare * accuracy, pressure * accuracy,
+                                kMostModes};
     double rule = kRuleShare * accuracy;
     TunedModel model;
     for (int round = 0;; ++round) {
@@ -143,7 +147,6 @@ class Tuning {
     model.cavities = kept.cavities;
     model.epicardium = kept.epicardium_points;
     model.pressure_mass = kept.pressure_mass;
-    model.correction = kept.correction;
     metric_ = training.metric();
   }
 
@@ -219,7 +222,6 @@ Discretisation tuned_discretisation(const Anatomy& anatomy, const Scene& scene, 
   points.epicardium_points = model.epicardium;
   Discretisation out = nested_discretisation(anatomy, scene, model.space, points);
   out.pressure_mass = model.pressure_mass;
-  out.correction = model.correction;
   return out;
 }
 

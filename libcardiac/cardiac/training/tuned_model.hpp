@@ -38,7 +38,6 @@ struct TunedModel {
   std::vector<CavitySurface> cavities;
   polyaffine::SurfacePoints epicardium;
   polyaffine::Matrix pressure_mass;
-  std::shared_ptr<const polyaffine::LinearCorrection> correction;
   std::vector<TuningRound> rounds;  ///< the model is that of the last
   bool reached = false;             ///< the accuracy that was asked for
 };

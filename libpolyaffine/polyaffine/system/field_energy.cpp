@@ -95,13 +95,8 @@ struct FieldEnergy::Kinematics {
 };
 
 FieldEnergy::FieldEnergy(FieldTable table, std::vector<std::shared_ptr<const Law>> laws,
-                         std::optional<PressureSpace> pressure,
-                         std::shared_ptr<const LinearCorrection> correction)
-    : table_(std::move(table)),
-      laws_(std::move(laws)),
-      pressure_(std::move(pressure)),
-      correction_(std::move(correction)),
-      first_pack_{0} {
+                         std::optional<PressureSpace> pressure)
+    : table_(std::move(table)), laws_(std::move(laws)), pressure_(std::move(pressure)), first_pack_{0} {
   const auto first =
       std::stable_partition(laws_.begin(), laws_.end(), [](const auto& law) { return !law->feels_rate(); });
   viscous_.assign(first, laws_.end());
@@ -135,7 +130,6 @@ FieldEnergy::Kinematics FieldEnergy::kinematics(const Motion& motion) const {
   if (!pressure_) return kin;
 
   kin.g = dilatation(*pressure_, table_, kin.J);
-  if (corrects_volume()) kin.g.noalias() += correction_->volume_change * motion.c;
   kin.p = motion.pressure ? *motion.pressure : penalty_pressure(kin.g);
   return kin;
 }
@@ -214,12 +208,6 @@ EnergyValue FieldEnergy::evaluate(const Motion& motion) const {
         out.value += energy[slot];
         scatter(packed_[k].functions(), force[slot], out.gradient);
       });
-  if (correction_) {
-    const Vector force_of_rest = correction_->stiffness * motion.c;
-    out.value += 0.5 * motion.c.dot(force_of_rest);
-    out.gradient += force_of_rest;
-    if (corrects_volume()) out.gradient.noalias() += correction_->volume_change.transpose() * kin.p;
-  }
   return out;
 }
 
@@ -304,8 +292,6 @@ void FieldEnergy::add_tangent(const Motion& motion, LinearSystem& system, double
             D.row(pressures[b]).segment<3>(3 * functions[a]) +=
                 rows[slot].row(static_cast<Eigen::Index>(b)).segment<3>(static_cast<Eigen::Index>(3 * a));
       });
-  if (correction_) system.add_dense(scale * correction_->stiffness);
-  if (global && corrects_volume()) D += correction_->volume_change;
   if (global) system.add_gram(inverse_mass_.half(D), scale * pressure_->bulk_modulus);
 }
 
@@ -337,7 +323,6 @@ Vector FieldEnergy::volume_change(const Vector& c, const Vector& u) const {
     }
     out(pressure_->blocks[k].functions) += pressure_->blocks[k].values * at_points;
   }
-  if (corrects_volume()) out.noalias() += correction_->volume_change * u;
   return out;
 }
 
@@ -357,7 +342,6 @@ Vector FieldEnergy::pressure_force(const Vector& c, const Vector& p) const {
     block.force(field.data(), force);
     scatter(block.functions(), force, out);
   }
-  if (corrects_volume()) out.noalias() += correction_->volume_change.transpose() * p;
   return out;
 }
 

@@ -39,26 +39,17 @@ struct PointTerms {
   Matrix pressure_gradient;  ///< pressures × points
 };
 
-/// What a sparse rule misses, learned to first order: the force B c beside that of the points, B symmetric, and
-/// the change of volume H c beside what they see (H a row a pressure function). Both vanish at rest.
-struct LinearCorrection {
-  Matrix stiffness;      ///< B, mN/mm
-  Matrix volume_change;  ///< H, mm²; empty without a pressure space
-};
-
 /// W(c) = Σ_q w_q Σ_laws W_law(M_q(c)) + W_vol, over the points of a field table, with gradient
 /// f_a = Σ_q w_q P_q row_a and tangent Σ_q w_q B_qᵀ A_q B_q. Units: µJ, mN, mN/mm for the wall; with the
 /// signed volume law on a surface table, mm³ and its derivatives.
 ///
 /// The optional pressure space adds the volumetric energy (see PressureSpace). Laws that feel the rate
 /// (viscosity) add their stress to the gradient and `rate_factor` times its derivative by the rate to the
-/// tangent. A linear correction adds ½ cᵀB c and H c to the sums over the points (not to point_terms); such
-/// an energy needs a dense system.
+/// tangent.
 class FieldEnergy {
  public:
   FieldEnergy(FieldTable table, std::vector<std::shared_ptr<const Law>> laws,
-              std::optional<PressureSpace> pressure = {},
-              std::shared_ptr<const LinearCorrection> correction = {});
+              std::optional<PressureSpace> pressure = {});
 
   const FieldTable& table() const { return table_; }
   const std::optional<PressureSpace>& pressure_space() const { return pressure_; }
@@ -87,13 +78,11 @@ class FieldEnergy {
   Kinematics kinematics(const Motion& motion) const;
   void respond(const Kinematics& kin, const Motion& motion, std::size_t k, const Vector& pressure, int pack,
                bool tangent, double rate_factor, PackResponse& r) const;
-  bool corrects_volume() const { return correction_ && correction_->volume_change.size() > 0; }
   Vector point_pressure(const Vector& p, std::size_t k) const;
 
   FieldTable table_;
   std::vector<std::shared_ptr<const Law>> laws_, viscous_;  // those that feel the rate apart
   std::optional<PressureSpace> pressure_;
-  std::shared_ptr<const LinearCorrection> correction_;  // null: none
   InverseMass inverse_mass_;
   std::vector<PackedBlock> packed_;
   std::vector<int> first_pack_;  // of each block, and their number

@@ -51,7 +51,7 @@ TEST(Parse, AbsentTablesStayAbsentAndNamedOnesTakeDefaults) {
   EXPECT_EQ(beat.fibres->epi_angle_deg, -70);
 }
 
-TEST(Parse, AccuratePresetBendsTheWallWhereRegionsDiffer) {
+TEST(Parse, PresetsBendTheWallWhereRegionsDiffer) {
   using Words = std::vector<std::string>;
   const std::string region = "[[region]]\nsegments = [7]\n";
   const auto enrichment = [](const std::string& text, const std::string& preset = "accurate") {
@@ -68,15 +68,17 @@ TEST(Parse, AccuratePresetBendsTheWallWhereRegionsDiffer) {
   EXPECT_EQ(enrichment(kBeat + region), alike);
   for (const char* key : {"tension_factor", "stiffness_factor", "activation_delay_ms"})
     EXPECT_EQ(enrichment(kBeat + region + key + " = 0.5\n"), differing) << key;
-  EXPECT_EQ(enrichment(kBeat + region + "tension_factor = 0.5\n", "fast"), (Words{"tt", "lt"}));
+  EXPECT_EQ(enrichment(kBeat + region, "fast"), (Words{"tt", "lt"}));
+  EXPECT_EQ(enrichment(kBeat + region + "tension_factor = 0.5\n", "fast"),
+            (Words{"tt", "lt", "ct", "lc", "cc", "ll"}));
   // Nothing contracts: of the factors only the stiffness plays a part.
   EXPECT_EQ(enrichment(kPassive + region + "tension_factor = 0.5\n"), alike);
   EXPECT_EQ(enrichment(kPassive + region + "stiffness_factor = 0.5\n"), differing);
   const std::string weak = kBeat + region + "tension_factor = 0.5\n";
   EXPECT_FALSE(borders(kBeat + region));
   EXPECT_TRUE(borders(weak));
-  EXPECT_FALSE(borders(weak, {"reduction.preset=fast"}));
-  EXPECT_TRUE(borders(weak, {"reduction.preset=fast", "reduction.border_functions=true"}));
+  EXPECT_TRUE(borders(weak, {"reduction.preset=fast"}));
+  EXPECT_FALSE(borders(weak, {"reduction.border_functions=false"}));
   EXPECT_FALSE(borders(weak, {"reduction.ring_nodes=[4, 8, 8, 8]"}));
   EXPECT_FALSE(borders(weak, {"reduction.weights=sigmoid"}));
 }
@@ -106,10 +108,25 @@ TEST(Parse, PresetFillsWhatTheFileLeavesOut) {
   using cardiac::protocol::PressureSpace;
   const auto fast = parsed(kPassive).reduction;
   EXPECT_EQ(fast.enrichment, (std::vector<std::string>{"tt", "lt"}));
-  EXPECT_EQ(fast.pressure_space, PressureSpace::segment_depth);
+  EXPECT_EQ(fast.pressure_space, PressureSpace::segment_linear);
+  const auto sigmoid = parsed(kPassive + "[reduction]\nweights = \"sigmoid\"\n").reduction;
+  EXPECT_EQ(sigmoid.pressure_space, PressureSpace::segment_depth);
   const auto accurate = parsed(kPassive + "[reduction]\npreset = \"accurate\"\nenrichment = []\n").reduction;
   EXPECT_EQ(accurate.enrichment, std::vector<std::string>{});
-  EXPECT_EQ(accurate.pressure_space, PressureSpace::segment_bilinear);
+  EXPECT_EQ(accurate.pressure_space, PressureSpace::segment_linear);
+}
+
+TEST(Parse, CartesianAxesHaveTheFunctionsOfAffineMapsOnACurvedWall) {
+  using Words = std::vector<std::string>;
+  const auto enrichment = [](const std::vector<std::string>& settings) {
+    return *parsed(kBeat, settings).reduction.enrichment;
+  };
+  const Words fast{"tt", "lt", "ct", "lc", "cc"};
+  const Words accurate{"tt", "lt", "ct", "ltt", "ttt", "ll", "lc", "cc", "ctt", "llt", "cct"};
+  EXPECT_EQ(enrichment({"reduction.axes=cartesian"}), fast);
+  EXPECT_EQ(enrichment({"mesh.shape=human_biventricle"}), fast);
+  EXPECT_EQ(enrichment({"mesh.shape=human_biventricle", "reduction.axes=heart"}), (Words{"tt", "lt"}));
+  EXPECT_EQ(enrichment({"mesh.shape=human_biventricle", "reduction.preset=accurate"}), accurate);
 }
 
 TEST(Parse, WordsMeanTheirValues) {

@@ -60,6 +60,8 @@ TEST(Rules, ContractionRaisesALocalBulkModulusThatIsNotGiven) {
   EXPECT_EQ(local(kBeat, {"tissue.bulk_modulus_kPa=100"}), 10);
   EXPECT_EQ(local(kBeat, {"reduction.local_bulk_modulus_kPa=6"}), 6);
   EXPECT_EQ(local(kBeat, {"mesh.shape=human_biventricle"}), 6);
+  EXPECT_EQ(local(kBeat, {"mesh.shape=human_biventricle", "reduction.preset=accurate"}), 20);
+  EXPECT_EQ(local(kBeat, {"region=[{segments=[7], tension_factor=0}]"}), 60);
 }
 
 TEST(Rules, ContrastsBeyondTheReducedModelAreWarnedOf) {

@@ -140,9 +140,10 @@ std::string other_value(const std::string& path, const Key& key, const Json& val
                                                          {"activation.sites_mm", "[[7.0, 0.0, 0.0]]"},
                                                          {"time.max_step_ms", "0.1"},
                                                          {"region.segments", "[8]"}};
-  // Functions at borders are refused with frames that they do not fit.
-  if (path == "reduction.border_functions")
-    return base.reduction.weights == Weights::tents && !base.regions.empty() ? "true" : "false";
+  // They are there where regions differ.
+  if (path == "reduction.border_functions") return base.reduction.border_functions.value() ? "false" : "true";
+  // Of one ventricle it chooses functions alone, and the bases name theirs.
+  if (path == "reduction.preset") return "";
   if (const auto found = chosen.find(path); found != chosen.end()) return found->second;
   switch (key.kind) {
     case Kind::number: {

@@ -58,7 +58,7 @@ TEST(KeyStates, OfAFirstBeatBeginWithItsContraction) {
   const HeartRun first = healthy_with({"time.max_beats=1"});
   EXPECT_EQ(first.key.ed_is, "onset of contraction");
   EXPECT_NEAR(first.key.ed.time_ms, healthy().key.ed.time_ms, 1);
-  EXPECT_NEAR(first.result.ventricles[0].edp_mmHg, 10, 0.1);  // that of the filling
+  EXPECT_NEAR(first.result.ventricles[0].edp_mmHg, 10, 0.2);  // that of the filling, as contraction begins
   for (const std::string& warning : first.result.warnings)
     EXPECT_EQ(warning.find("valve never"), std::string::npos) << warning;
 }
@@ -94,7 +94,7 @@ TEST(KeyStates, OfALeakingAorticValveAreTheExtremesAndTheLeakIsTold) {
   const Range volume = volumes_mL(run);
   EXPECT_NEAR(lv.edv_mL, volume.high, 0.1);
   EXPECT_NEAR(lv.esv_mL, volume.low, 0.1);
-  EXPECT_NEAR(lv.edv_mL, 129.2, 0.8);
+  EXPECT_NEAR(lv.edv_mL, 128.3, 0.8);
   EXPECT_NEAR(lv.sv_mL, 81.8, 0.8);
   EXPECT_NEAR(lv.ef_percent, 63.3, 0.5);
   EXPECT_EQ(run.key.ed_is, "onset of contraction");

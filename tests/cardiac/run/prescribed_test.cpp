@@ -219,7 +219,7 @@ TEST(Prescribed, ContractionFollowsTheHeartRateTheIntervalAndTheViscosity) {
   const auto run = [](const std::string& viscosity) {
     return HeartRun(parse_protocol(R"(
 mesh = {file = "../meshes/land_ellipsoid_coarse.vtu", length_unit = "mm"}
-tissue = {law = "guccione", bfs = 20, viscosity_kPa_ms = )" +
+tissue = {law = "guccione", bfs = 20, bulk_modulus_kPa = 1000, viscosity_kPa_ms = )" +
                                        viscosity + R"(}
 fibres = {}
 activation = {}
