@@ -62,26 +62,27 @@ polyaffine::NodalFunctions at_nodes(const Anatomy& anatomy, const polyaffine::Fr
 NestedSpace affine_space(const Anatomy& anatomy, const Scene& scene) {
   const FrameLayout layout = frame_layout_of(anatomy, scene);
   const auto field = tents(anatomy, layout);
-  std::vector<polyaffine::FrameFunctions> functions(field->num_frames(),
-                                                    {polyaffine::affine_monomials(), false});
-  for (int i = layout.num_nodes(); i < field->num_frames(); ++i) functions[i].monomials = {{1, 0, 0}};
-  const auto all = std::make_shared<polyaffine::FrameBasis>(field, functions);
-  const polyaffine::NodalFunctions values = at_nodes(anatomy, *all);
-  const Matrix gram = Matrix(values.transpose() * values);
-  const std::vector<char> keep = independent_columns(gram);
-  int f = 0;
-  for (auto& frame : functions)
-    std::erase_if(frame.monomials, [&](const polyaffine::Monomial&) { return !keep[f++]; });
-
+  const Eigen::Index nodes = anatomy.coordinates->space().num_functions();
+  std::vector<polyaffine::FrameFunctions> functions(field->num_frames());
   NestedSpace out;
-  out.frame_basis = std::make_shared<polyaffine::FrameBasis>(field, functions);
-  out.frames = at_nodes(anatomy, *out.frame_basis);
-  out.modes = Matrix(3 * values.rows(), 0);
+  out.modes = Matrix(3 * nodes, 0);
   if (!scene.reduction.affine_frames) {
-    out.frames = polyaffine::NodalFunctions(values.rows(), 0);
+    out.frame_basis = std::make_shared<polyaffine::FrameBasis>(field, functions);
+    out.frames = polyaffine::NodalFunctions(nodes, 0);
     out.pressures = Matrix::Ones(1, anatomy.mesh.num_tets());
     return out;
   }
+  for (int i = 0; i < field->num_frames(); ++i)
+    functions[i].monomials = i < layout.num_nodes() ? polyaffine::affine_monomials()
+                                                    : std::vector<polyaffine::Monomial>{{1, 0, 0}};
+  const polyaffine::NodalFunctions values =
+      at_nodes(anatomy, polyaffine::FrameBasis(field, functions));
+  const std::vector<char> keep = independent_columns(Matrix(values.transpose() * values));
+  int f = 0;
+  for (auto& frame : functions)
+    std::erase_if(frame.monomials, [&](const polyaffine::Monomial&) { return !keep[f++]; });
+  out.frame_basis = std::make_shared<polyaffine::FrameBasis>(field, functions);
+  out.frames = at_nodes(anatomy, *out.frame_basis);
   const std::vector<int> region = region_tets(anatomy.mesh, *anatomy.coordinates, layout);
   out.pressures = Matrix::Zero(layout.num_nodes(), std::ssize(region));
   for (std::size_t t = 0; t < region.size(); ++t) out.pressures(region[t], static_cast<Eigen::Index>(t)) = 1;

@@ -54,6 +54,7 @@ struct HeartPath {
 using Progress = std::function<void(const std::string& what, double fraction)>;
 
 struct Checkpoint;
+struct TuningRound;
 
 /// How a run is watched, stopped and taken up again; every part may be absent.
 struct RunControl {
@@ -64,6 +65,7 @@ struct RunControl {
   std::function<void()> on_built{};     ///< called by simulate when the model stands, before it is solved
   std::function<void()> on_solved{};    ///< and when it is solved, before the path is told in strains
   std::function<void()> on_distrust{};  ///< called by simulate before it begins anew with all points
+  std::function<void(const TuningRound&)> on_round{};  ///< called after each round of a tuning
   bool keep_absurd = false;             ///< an absurd result counts as completed, with a warning
 };
 

@@ -8,6 +8,7 @@
 #include <cardiac/run/build_ventricle.hpp>
 #include <cardiac/run/plausibility.hpp>
 #include <cardiac/run/statics.hpp>
+#include <cardiac/run/tuned_ventricle.hpp>
 #include <cardiac/scene/presets.hpp>
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/core/stopwatch.hpp>
@@ -34,6 +35,10 @@ HeartPath trusted_path(Ventricle& model, const Scene& scene, const RunControl& c
   return path;
 }
 
+bool is_tuned(const Scene& scene) {
+  return scene.reduction.method == scene::Method::polyaffine && scene.reduction.preset == scene::Preset::tuned;
+}
+
 }  // namespace
 
 Outcome simulate(const Scene& of, const RunControl& control) {
@@ -45,7 +50,12 @@ Outcome simulate(const Scene& of, const RunControl& control) {
   double setup_s = 0, solve_s = 0;
   {
     const polyaffine::Stopwatch watch(setup_s);
-    out.model = build_ventricle(scene.heart, scene, scene.reduction.method);
+    if (is_tuned(scene)) {
+      scene.tuned = tuned_model(scene.heart, scene, control);
+      out.model = tuned_ventricle(scene.heart, scene, *scene.tuned);
+    } else {
+      out.model = build_ventricle(scene.heart, scene, scene.reduction.method);
+    }
     out.nodes = segment_nodes(*scene.heart, scene);
   }
   if (control.on_built) control.on_built();
@@ -54,6 +64,9 @@ Outcome simulate(const Scene& of, const RunControl& control) {
     out.path = trusted_path(out.model, scene, control);
   }
   if (control.on_solved) control.on_solved();
+  if (is_tuned(scene))
+    for (std::string& text : tuned_warnings(*scene.tuned, scene, out.path))
+      out.path.warnings.push_back(std::move(text));
   out.result = describe_path(out.model, out.nodes, scene, out.path);
   out.result.wall_setup_s = setup_s;
   out.result.wall_solve_s = solve_s;

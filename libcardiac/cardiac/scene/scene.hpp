@@ -9,6 +9,10 @@
 #include <cardiac/anatomy/anatomy.hpp>
 #include <cardiac/core/units.hpp>
 
+namespace cardiac {
+struct TunedModel;
+}
+
 /// The parts of a scene, in mm, ms, kPa and mg. Their initial values are those of a healthy human heart, the
 /// defaults of the protocol file; meaning, range and source of each stand in the protocol's key table and are
 /// printed by `cardiac explain KEY`.
@@ -161,6 +165,7 @@ namespace cardiac {
 /// (load_protocol).
 struct Scene {
   std::shared_ptr<const Anatomy> heart;  ///< the mesh with coordinates and segments; needed by simulate
+  std::shared_ptr<const TunedModel> tuned;  ///< learned for it before; null: preset tuned learns it
   scene::Reduction reduction;
   scene::Tissue tissue;
   std::optional<scene::Fibres> fibres;

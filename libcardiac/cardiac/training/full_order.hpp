@@ -19,10 +19,13 @@ struct TrainingLoad {
   std::vector<scene::RegionOverride> regions{};
 };
 
-/// The wall under a load: nodal displacement (3 · nodes, mm) and the pressure of each element (kPa).
+/// The wall under a load: nodal displacement (3 · nodes, mm) and the pressure of each element (kPa), and with
+/// these the nodal forces of the wall (mN) and the change of each element's volume, g − M p/κ (mm³; without a
+/// pressure space empty, as the pressure).
 struct FullState {
   TrainingLoad load;
   polyaffine::Vector u, pressure;
+  polyaffine::Vector force{}, change{};
 };
 
 /// The scene with the load's regions beside its own.

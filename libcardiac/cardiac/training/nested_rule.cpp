@@ -122,20 +122,15 @@ bool NestedRuleTraining::add(const FullState& state) {
 void NestedRuleTraining::add_wall(const Measure& at, const FullState& state) {
   const polyaffine::FieldEnergy& wall = *at.ventricle.wall;
   const bool mixed = wall.pressure_space().has_value();
-  const Ventricle full = full_.ventricle(state.load);
-  const WallLoad full_load = wall_load(full, state.load);
-  const Vector element_pressure = mixed ? Vector(space_.pressures.transpose() * at.pressure) : Vector();
-  const auto whole = full.wall->evaluate({basis_.nodal(at.c), state_of(full_load.tension), nullptr,
-                                          mixed ? &element_pressure : nullptr});
   const auto terms = wall.point_terms(
       {at.c, state_of(at.load.tension), nullptr, mixed ? &at.pressure : nullptr});
   const Eigen::Index n = terms.gradient.cols();
   Matrix forces(at.c.size(), n + 1);
-  forces << terms.gradient, basis_.transpose(whole.gradient);
+  forces << terms.gradient, basis_.transpose(state.force);
   if (mixed) {
     // g − M p/κ of each candidate and of all points; what the pressure's own mass adds is the same for both.
     Matrix changes(space_.pressures.rows(), n + 1);
-    changes << terms.pressure_gradient, space_.pressures * whole.pressure_gradient;
+    changes << terms.pressure_gradient, space_.pressures * state.change;
     const auto& space = *wall.pressure_space();
     for (Eigen::Index q = 0; q < n; ++q) {
       const auto values = space_.pressures.col(candidates_.points.tet[static_cast<std::size_t>(q)]);

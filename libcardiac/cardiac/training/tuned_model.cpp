@@ -1,5 +1,6 @@
 #include "cardiac/training/tuned_model.hpp"
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -147,7 +148,22 @@ class Tuning {
     model.cavities = kept.cavities;
     model.epicardium = kept.epicardium_points;
     model.pressure_mass = kept.pressure_mass;
+    find_range(training.metric(), model);
     metric_ = training.metric();
+  }
+
+  void find_range(const Matrix& metric, TunedModel& model) const {
+    const auto count = std::ssize(path_) + std::ssize(neighbours_);
+    const Matrix root = metric.llt().matrixU();
+    Matrix states(metric.rows(), count);
+    Eigen::Index s = 0;
+    for (const auto* list : {&path_, &neighbours_})
+      for (const FullState& state : *list) states.col(s++) = root * modes_.nearest(model.space, metric, state.u);
+    const Eigen::BDCSVD<Matrix> svd(states, Eigen::ComputeThinU);
+    const Matrix along = svd.matrixU().transpose() * states;
+    model.coordinates = svd.matrixU().transpose() * root;
+    model.least = along.rowwise().minCoeff().cwiseMin(0);
+    model.largest = along.rowwise().maxCoeff().cwiseMax(0);
   }
 
   TuningRound hold_against(const std::vector<TrainingLoad>& loads, const TunedModel& model, int round) {
@@ -213,6 +229,14 @@ class Tuning {
 TunedModel tune(const std::shared_ptr<const Anatomy>& anatomy, const Scene& scene, const TuningPlan& plan,
                 const TuningControl& control) {
   return Tuning(anatomy, scene, plan, control).run();
+}
+
+double outside(const TunedModel& model, const Vector& c) {
+  constexpr double kMargin = 0.1;
+  const Vector at = model.coordinates * c;
+  const Vector margin = kMargin * (model.largest - model.least);
+  const Vector inside = at.cwiseMax(model.least - margin).cwiseMin(model.largest + margin);
+  return at.norm() > 0 ? (at - inside).norm() / at.norm() : 0;
 }
 
 Discretisation tuned_discretisation(const Anatomy& anatomy, const Scene& scene, const TunedModel& model) {

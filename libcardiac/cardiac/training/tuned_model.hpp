@@ -38,9 +38,17 @@ struct TunedModel {
   std::vector<CavitySurface> cavities;
   polyaffine::SurfacePoints epicardium;
   polyaffine::Matrix pressure_mass;
+  /// Where the states that it learned from lie: coordinates of coefficients c, an orthonormal set in the metric
+  /// of ‖∇u‖, and their least and largest values.
+  polyaffine::Matrix coordinates;
+  polyaffine::Vector least, largest;
   std::vector<TuningRound> rounds;  ///< the model is that of the last
   bool reached = false;             ///< the accuracy that was asked for
 };
+
+/// How far coefficients lie outside what the model learned from: the distance from the box of its states,
+/// a tenth of its width left around it, over the size of c.
+double outside(const TunedModel& model, const polyaffine::Vector& c);
 
 /// How a tuning is bounded and watched.
 struct TuningControl {
