@@ -9,6 +9,7 @@
 #include "explain_command.hpp"
 #include "help_command.hpp"
 #include "mesh_command.hpp"
+#include "reduce_command.hpp"
 #include "report_command.hpp"
 #include "run_command.hpp"
 #include "schema_command.hpp"
@@ -38,6 +39,7 @@ int run_program(int argc, char** argv) {
   app.footer(examples());
   app.require_subcommand(1);
   cardiac::app::add_run_command(app);
+  cardiac::app::add_reduce_command(app);
   cardiac::app::add_mesh_command(app);
   cardiac::app::add_segment_command(app);
   cardiac::app::add_strain_command(app);

@@ -19,12 +19,14 @@
 #include <cardiac/run/checkpoint.hpp>
 #include <cardiac/run/simulate.hpp>
 #include <cardiac/run/verification.hpp>
+#include <cardiac/training/tuned_model.hpp>
 #include <nlohmann/json.hpp>
 #include <polyaffine/core/atomic_file.hpp>
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/mesh/digest.hpp>
 
 #include "example_data.hpp"
+#include "heart_model.hpp"
 #include "interrupt.hpp"
 #include "load_mesh.hpp"
 #include "progress.hpp"
@@ -38,6 +40,7 @@ namespace {
 
 struct RunOptions {
   std::string protocol;
+  std::string model;
   std::string out;
   std::string method;
   std::vector<std::string> overrides;
@@ -192,8 +195,13 @@ RunControl control_of(const Scene& scene, const RunOptions& options, const std::
 void run(RunOptions options) {
   const auto start = std::chrono::steady_clock::now();
   if (!options.method.empty()) options.overrides.push_back("reduction.method=" + options.method);
-  Protocol protocol =
-      load_input(given_or_example(options.protocol), options.overrides, {.insist = options.force});
+  if (options.protocol.empty() == options.model.empty())
+    throw polyaffine::InputError(options.model.empty()
+                                     ? "run: found neither PROTOCOL nor --model, expected one of them"
+                                     : "run: found PROTOCOL and --model, expected one of them");
+  Protocol protocol = options.model.empty() ? load_input(given_or_example(options.protocol), options.overrides,
+                                                         {.insist = options.force})
+                                            : load_model(options.model, options.overrides);
   if (protocol.output.mesh_series && !writes_mesh_series()) {
     protocol.output.mesh_series = false;
     protocol.warnings.push_back(
@@ -203,10 +211,12 @@ void run(RunOptions options) {
   print_warnings(protocol.warnings);
   if (options.dry_run) return print_plan(items);
   const std::filesystem::path out =
-      options.out.empty() ? std::filesystem::path("results") / std::filesystem::path(options.protocol).stem()
+      options.out.empty() ? std::filesystem::path("results") /
+                                std::filesystem::path(options.model.empty() ? options.protocol : options.model)
+                                    .stem()
                           : std::filesystem::path(options.out);
   polyaffine::make_folder(out);
-  if (protocol.mesh.file) check_not_a_result(mesh_path(protocol), out);
+  if (protocol.mesh.file && options.model.empty()) check_not_a_result(mesh_path(protocol), out);
 
   options.identity = resolved_json(protocol).dump();
   const InterruptGuard interrupt;
@@ -216,6 +226,13 @@ void run(RunOptions options) {
   {
     ProgressLine line(options.quiet);
     RunControl control = control_of(protocol, options, out, interrupt, line);
+    control.on_round = [&options](const TuningRound& round) {
+      if (options.quiet) return;
+      std::cout << "tuning: " << round.full_order_solves << " full-order solves, " << round.unknowns
+                << " unknowns, " << round.points << " points, " << std::fixed << std::setprecision(1)
+                << round.seconds << " s: " << std::setprecision(2) << round.displacement_percent
+                << " % off in the worst load held out (" << round.worst << ")" << std::endl;
+    };
     control.on_built = [&] {
       setup_s = seconds_since(start);
       remove_old_results(out);
@@ -251,7 +268,11 @@ void run(RunOptions options) {
 void add_run_command(CLI::App& app) {
   auto* command = app.add_subcommand("run", "Compute the heart beat of a protocol on a ventricle mesh.");
   auto options = std::make_shared<RunOptions>();
-  command->add_option("PROTOCOL", options->protocol, "protocol file (.toml)")->required();
+  command->add_option("PROTOCOL", options->protocol, "protocol file (.toml)");
+  command
+      ->add_option("--model", options->model,
+                   "instead of a protocol: a model file of cardiac reduce, which holds all that a run needs")
+      ->type_name("HEART.model");
   command->add_option("--out", options->out, "result directory (default: results/ and the protocol's name)")
       ->type_name("DIR");
   command->add_option("--set", options->overrides, "override a protocol key; the value in TOML")

@@ -143,7 +143,9 @@ Table reduction_table() {
                "segment_bilinear). With Cartesian axes, in which {ct, cc, lc} complete an affine map on a "
                "curved wall, fast has these and accurate {cc, lc, ctt, llt, cct} besides. Where a [[region]] "
                "differs from the rest its bulge bends the wall along l and c and its strain jumps: {lc, cc}, "
-               "with fast {ct, ll} too, and border_functions",
+               "with fast {ct, ll} too, and border_functions. tuned: functions, pressures and points learned "
+               "once for this heart from its full-order model (minutes; kept in the cache, or in a file by "
+               "cardiac reduce)",
            .source = "measured: cardiac bench",
            .also = {reduced()}})
       .key("weights", &Reduction::weights,
@@ -235,7 +237,30 @@ Table reduction_table() {
             .meaning = "order of the elements of the full-order model; order 1 locks near incompressibility",
             .source = "measured: cardiac validate ellipsoid and land",
             .used_with = "method",
-            .used_values = {"fem"}});
+            .used_values = {"fem"}})
+      .key("accuracy_percent", &Reduction::accuracy_percent,
+           {.unit = "%",
+            .range = {0.05, 20},
+            .meaning = "largest error of displacement against full order (relative, L2 over the wall) in the "
+                       "loads that a tuned model is held against: it learns until they are met",
+            .used_with = "preset",
+            .used_values = {"tuned"},
+            .also = {reduced()}})
+      .key("budget_s", &Reduction::budget_s,
+           {.unit = "s",
+            .range = above_zero(1e6),
+            .meaning = "time that the learning of a tuned model may take; no round begins that would not end "
+                       "in it",
+            .used_with = "preset",
+            .used_values = {"tuned"},
+            .also = {reduced()}})
+      .key("affine_frames", &Reduction::affine_frames,
+           {.meaning = "whether the affine functions of the control nodes stay unknowns beside the modes of a "
+                       "tuned model: nearer in regions that it did not learn, at several times the cost",
+            .source = "measured: cardiac bench",
+            .used_with = "preset",
+            .used_values = {"tuned"},
+            .also = {reduced()}});
   return table.build();
 }
 

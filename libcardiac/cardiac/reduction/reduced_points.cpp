@@ -129,6 +129,7 @@ void add_reduced_points(const Anatomy& anatomy, const Scene& scene, Discretisati
 }
 
 WallPoints strain_points(const Anatomy& anatomy, const Discretisation& d) {
+  if (d.element_pressures) return anatomy.coordinates->space().wall_points(1);
   if (!d.frames) return d.points;
   const VentricularCoordinates& heart = *anatomy.coordinates;
   const SegmentCells cells(d.frames, every_segment());

@@ -1,0 +1,103 @@
+#include "reduce_command.hpp"
+
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <sstream>
+
+#include <cardiac/run/tuned_ventricle.hpp>
+#include <polyaffine/core/error.hpp>
+
+#include "example_data.hpp"
+#include "heart_model.hpp"
+#include "interrupt.hpp"
+#include "load_mesh.hpp"
+#include "progress.hpp"
+#include "warnings.hpp"
+
+namespace cardiac::app {
+namespace {
+
+struct ReduceOptions {
+  std::string protocol, out;
+  std::vector<std::string> overrides;
+  double accuracy_percent = 0, budget_s = 0;  // 0: of the protocol
+  bool quiet = false;
+};
+
+void print_head() {
+  std::cout << "full-order solves  unknowns  points  seconds  held out: displacement %  volume %  worst load\n";
+}
+
+void print_round(const TuningRound& r) {
+  std::cout << std::fixed << std::setw(17) << r.full_order_solves << std::setw(10) << r.unknowns << std::setw(8)
+            << r.points << std::setw(9) << std::setprecision(1) << r.seconds << std::setw(25)
+            << std::setprecision(2) << r.displacement_percent << std::setw(10) << r.volume_percent << "  "
+            << r.worst << std::endl;
+}
+
+std::string number(double value) {
+  std::ostringstream out;
+  out << std::setprecision(17) << value;
+  return out.str();
+}
+
+void reduce(const ReduceOptions& options) {
+  std::vector<std::string> overrides = options.overrides;
+  overrides.emplace_back("reduction.preset=tuned");
+  if (options.accuracy_percent > 0)
+    overrides.push_back("reduction.accuracy_percent=" + number(options.accuracy_percent));
+  if (options.budget_s > 0) overrides.push_back("reduction.budget_s=" + number(options.budget_s));
+  const std::filesystem::path source = given_or_example(options.protocol);
+  Protocol protocol = load_input(source, overrides);
+  if (protocol.reduction.method != scene::Method::polyaffine)
+    throw polyaffine::InputError("reduction.method: found fem, expected polyaffine for a reduced model");
+  print_warnings(protocol.warnings);
+  const InterruptGuard interrupt;
+  {
+    ProgressLine line(options.quiet);
+    RunControl control;
+    control.progress = [&line](const std::string& what, double fraction) { line(what, fraction); };
+    control.stop_reason = [&interrupt] { return interrupt.reason(); };
+    if (!options.quiet) print_head();
+    control.on_round = [&options](const TuningRound& round) {
+      if (!options.quiet) print_round(round);
+    };
+    protocol.tuned = tuned_model(protocol.heart, protocol, control);
+  }
+  save_model(options.out, protocol, source, overrides);
+  const TuningRound& last = protocol.tuned->rounds.back();
+  if (!options.quiet)
+    std::cout << std::fixed << std::setprecision(2) << options.out << ": " << last.unknowns << " unknowns, "
+              << last.points << " points, " << last.displacement_percent << " % of displacement off at most in "
+              << "loads held out, learned from " << last.full_order_solves << " full-order solves in "
+              << std::setprecision(0) << last.seconds << " s\n";
+  if (!protocol.tuned->reached)
+    print_warnings({"the accuracy of " + number(protocol.reduction.accuracy_percent) +
+                    " % was not reached within the budget (--budget)"});
+}
+
+}  // namespace
+
+void add_reduce_command(CLI::App& app) {
+  auto* command = app.add_subcommand(
+      "reduce", "Learn the reduced model of one heart from its full-order model and write it to a file.");
+  auto options = std::make_shared<ReduceOptions>();
+  command->add_option("PROTOCOL", options->protocol, "protocol file (.toml)")->required();
+  command->add_option("--out", options->out, "model file to write")->type_name("HEART.model")->required();
+  command
+      ->add_option("--accuracy", options->accuracy_percent,
+                   "largest error of displacement in loads held out, % (reduction.accuracy_percent)")
+      ->type_name("PERCENT")
+      ->check(CLI::Range(0.05, 20.0));
+  command->add_option("--budget", options->budget_s, "time it may take (reduction.budget_s)")
+      ->type_name("SECONDS")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--set", options->overrides, "override a protocol key; the value in TOML")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command->add_flag("--quiet", options->quiet, "no progress, no table; warnings go to stderr in any case");
+  command->callback([options] { reduce(*options); });
+}
+
+}  // namespace cardiac::app
