@@ -92,7 +92,8 @@ Table contraction_table() {
       .key("cross_fibre_fraction", &Contraction::cross_fibre_fraction,
            {.range = {0, 1},
             .meaning = "tension across the fibre as a fraction of the tension along it",
-            .source = "Lin & Yin 1998: 0.4 and more; 0.25 for a healthy beat: EF 58 %, with 0.4 49 %, without it 74 %"});
+            .source = "Lin & Yin 1998: 0.4 and more; 0.25 for a healthy beat: EF 58 %, with 0.4 49 %, "
+                      "without it 74 %"});
   return table.build();
 }
 

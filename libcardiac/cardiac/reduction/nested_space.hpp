@@ -6,9 +6,9 @@
 namespace cardiac {
 
 /// The reduced space of one heart that is nested in its full-order model, so that the reduced model is a
-/// Galerkin projection of that: modes of the heart and, if the scene keeps them, the affine maps of the control
-/// frames, both by their values at the nodes of the quadratic elements, and pressures that are constant in each
-/// element.
+/// Galerkin projection of that: modes of the heart and, if the scene keeps them, the affine maps of the
+/// control frames, both by their values at the nodes of the quadratic elements, and pressures that are
+/// constant in each element.
 struct NestedSpace {
   std::shared_ptr<const polyaffine::FrameBasis> frame_basis;  ///< Cartesian axes, functions 1, l, c, t
   polyaffine::NodalFunctions frames;                          ///< its functions, zero on the base

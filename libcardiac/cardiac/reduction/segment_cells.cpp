@@ -51,6 +51,9 @@ double share_along(const PointInCell& at, const std::array<bool, 4>& rings_in_ce
 //     0 ├──────── cell ────────┤ width
 //              ├────── segment ──────┤      middle ± half
 //          low ├───●───────────┤ high
+//
+// The angle of two ventricles is not quite that of the sectors: where these do not overlap, the cell alone
+// tells it.
 double share_around(const PointInCell& at) {
   const double width = at.cell.width;
   double low = 0, high = width;
@@ -61,6 +64,8 @@ double share_around(const PointInCell& at) {
     low = std::max(low, middle - half);
     high = std::min(high, middle + half);
   }
+  constexpr double kOverlap = 1e-6;  // of the cell; a thinner part is rounding
+  if (!(high - low > kOverlap * width)) return at.cell.psi;
   return (at.cell.psi * width - low) / (high - low);
 }
 

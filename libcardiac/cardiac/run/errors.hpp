@@ -24,11 +24,11 @@ WallState wall_state(const polyaffine::Basis& basis, const polyaffine::Vector& c
 
 /// How far one solution is from a reference.
 struct ModelErrors {
-  double displacement_percent = 0;  ///< 100 ‖u − v‖ / ‖u‖, L2 over the reference's wall
-  double volume_percent = 0;        ///< cavity volume against the reference's, signed
-  double max_segment_strain = 0;    ///< Green–Lagrange normal strains, segments 1–16
-  double apex_strain = 0;           ///< the same in segment 17
-  double compliance_ratio = 0;      ///< change of the cavity's volume over the reference's
+  double displacement_percent = 0;   ///< 100 ‖u − v‖ / ‖u‖, L2 over the reference's wall
+  double volume_percent = 0;         ///< cavity volume against the reference's, signed
+  double max_segment_strain = 0;     ///< Green–Lagrange normal strains, segments 1–16
+  double apex_strain = 0;            ///< the same in segment 17
+  double compliance_ratio = 0;       ///< change of the cavity's volume over the reference's
   double rv_volume_percent = kNone;  ///< of the right cavity, signed; NaN with one ventricle
   double right_strain = kNone;       ///< normal strains, segments 18–29; NaN with one ventricle
 

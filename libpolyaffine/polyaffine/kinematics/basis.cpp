@@ -154,9 +154,9 @@ FieldTable make_table(const Basis& basis, const std::vector<int>& tet, const Eig
       std::sort(functions->begin(), functions->end());
       functions->erase(std::unique(functions->begin(), functions->end()), functions->end());
       if (functions->empty()) continue;
-      block.groups.push_back(
-          functions == &modes ? make_mode_group(samples, modes, block.first, kind)
-                              : make_group(samples, *functions, block.first, functions == &local, kind));
+      block.groups.push_back(functions == &modes
+                                 ? make_mode_group(samples, modes, block.first, kind)
+                                 : make_group(samples, *functions, block.first, functions == &local, kind));
     }
     table.blocks.push_back(std::move(block));
   }

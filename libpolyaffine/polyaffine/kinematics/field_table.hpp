@@ -20,7 +20,7 @@ struct FunctionGroup {
   int d = 3;
   Matrix rows;             ///< functions × (d · points)
   std::vector<Lift> lift;  ///< empty, or one a point
-  Matrix modes;  ///< of modes only, d = 9: (3 · functions) × (9 · points), row 3a + k for m_ak
+  Matrix modes;            ///< of modes only, d = 9: (3 · functions) × (9 · points), row 3a + k for m_ak
 
   bool is_modes() const { return modes.size() > 0; }
 };

@@ -35,7 +35,8 @@ NestedBasis::NestedBasis(std::shared_ptr<const LagrangeBasis> elements, NodalFun
       functions_(std::move(functions)),
       modes_(std::move(modes)) {
   const Eigen::Index nodes = elements_->num_functions();
-  if (functions_.rows() != nodes || (modes_.cols() > 0 && modes_.rows() != 3 * nodes) || modes_.cols() % 3 != 0)
+  if (functions_.rows() != nodes || (modes_.cols() > 0 && modes_.rows() != 3 * nodes) ||
+      modes_.cols() % 3 != 0)
     throw std::invalid_argument("nested basis: found " + std::to_string(functions_.rows()) + " nodes and " +
                                 std::to_string(modes_.rows()) + " × " + std::to_string(modes_.cols()) +
                                 " modes, expected " + std::to_string(nodes) +
@@ -78,7 +79,8 @@ BasisSample NestedBasis::sample(int tet, const Vec4& barycentric) const {
 
 Vector NestedBasis::nodal(const Vector& c) const {
   const Eigen::Index modes = modes_.cols(), scalar = 3 * static_cast<Eigen::Index>(num_scalar_);
-  const Eigen::Matrix<double, Eigen::Dynamic, 3> u = functions_ * c.head(scalar).reshaped(3, num_scalar_).transpose();
+  const Eigen::Matrix<double, Eigen::Dynamic, 3> u =
+      functions_ * c.head(scalar).reshaped(3, num_scalar_).transpose();
   Vector out = u.transpose().reshaped();
   if (modes > 0) out.noalias() += modes_ * c.tail(modes);
   return out;

@@ -13,9 +13,9 @@ using NodalFunctions = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 /// Values of scalar functions of a basis (modes and functions in local axes have none) at the nodes.
 NodalFunctions nodal_functions(const Basis& basis, const LagrangeBasis& elements);
 
-/// Functions that are nested in a space of finite elements: scalar functions interpolated in the elements, and
-/// modes, vector functions given by their nodal displacements. With the points and pressures of the elements
-/// a model of such functions is a Galerkin projection of theirs.
+/// Functions that are nested in a space of finite elements: scalar functions interpolated in the elements,
+/// and modes, vector functions given by their nodal displacements. With the points and pressures of the
+/// elements a model of such functions is a Galerkin projection of theirs.
 class NestedBasis : public Basis {
  public:
   /// `modes`: 3 · nodes × modes, a column a mode, their number a multiple of three (columns of zeros may fill

@@ -10,8 +10,7 @@ FieldTable resultant_table(const FieldTable& table) {
   for (const PointBlock& block : table.blocks)
     for (const FunctionGroup& group : block.groups) {
       if (!group.lift.empty() || group.is_modes())
-        throw std::invalid_argument(
-            "resultant table: expected functions without local axes and no modes");
+        throw std::invalid_argument("resultant table: expected functions without local axes and no modes");
       for (std::size_t a = 0; a < group.functions.size(); ++a) {
         seen[group.functions[a]] = 1;
         for (int q = 0; q < block.count; ++q)

@@ -58,7 +58,8 @@ TEST(BenchCommand, ComparesBeats) {
   EXPECT_THAT(run.out, IsEmpty());
   const auto rows = rows_of(whole_file(folder.path / "bench.csv"));
   ASSERT_EQ(rows.size(), 4);
-  EXPECT_EQ(std::vector(rows[0].end() - 5, rows[0].end()),
+  ASSERT_GT(rows[0].size(), 26);
+  EXPECT_EQ(std::vector(rows[0].begin() + 21, rows[0].begin() + 26),
             (std::vector<std::string>{"ef_error_points", "gls_error_points", "peak_strain_error",
                                       "apex_peak_strain_error", "real_time_factor"}));
   for (std::size_t r = 1; r < rows.size(); ++r) {

@@ -19,8 +19,8 @@ TEST(CheckCommand, PrintsCountsAndTheInfSupConstantOfAPreset) {
   const ProgramRun found = check("");
   EXPECT_EQ(found.status, 0) << found.err;
   EXPECT_THAT(found.err, IsEmpty());
-  EXPECT_THAT(found.out, HasSubstr("pressure unknowns       34"));
-  EXPECT_THAT(found.out, HasSubstr("smallest singular values 0.9"));
+  EXPECT_THAT(found.out, HasSubstr("pressure unknowns       65"));
+  EXPECT_THAT(found.out, HasSubstr("smallest singular values 0.8"));
   EXPECT_THAT(found.out, HasSubstr("compliance ratio        0.9"));
 }
 

@@ -56,6 +56,8 @@ TEST(DistrustedRule, IsTakenForWhatItIsAndTheRunDoneWithAllPoints) {
         "run " PROJECT_DIR "/protocols/passive_inflation.toml --set reduction.integration=" + integration +
             " --set 'mesh.file=\"" PROJECT_DIR
             "/meshes/land_ellipsoid_coarse.vtu\"'"
+            // With 10000 kPa the rule as it comes is 2.5 % off, and so distrusted.
+            " --set tissue.bulk_modulus_kPa=1000"
             " --set reduction.ring_nodes=[4] --set time.load_steps=2 --set output.figures=false"
             " --set output.mesh_series=false --out " +
             out.string(),

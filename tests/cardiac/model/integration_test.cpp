@@ -155,9 +155,10 @@ TEST(Rest, APointForTenUnknownsIsRefusedBeforeItRuns) {
     check_rest(assemble_ventricle(anatomy, protocol, d), protocol);
     FAIL() << "not refused";
   } catch (const polyaffine::InputError& error) {
-    EXPECT_THAT(error.what(), ::testing::AllOf(::testing::HasSubstr("not positive definite"),
-                                               ::testing::HasSubstr("reduction.enrichment"),
-                                               ::testing::HasSubstr("70 integration points")));
+    EXPECT_THAT(error.what(),
+                ::testing::AllOf(::testing::HasSubstr("not positive definite"),
+                                 ::testing::HasSubstr("reduction.enrichment"),
+                                 ::testing::HasSubstr(std::to_string(kept.size()) + " integration points")));
   }
 }
 

@@ -26,27 +26,19 @@ VolumeCheck two_ventricles(const std::string& preset) {
   return check("healthy_biv", {preset, "mesh.file=\"" PROJECT_DIR "/meshes/healthy_biv_coarse.vtu\""});
 }
 
-TEST(VolumeCheck, PassesBothPresetsOnOneVentricleAndFastOnTwo) {
+TEST(VolumeCheck, PassesBothPresetsOnOneVentricleAndOnTwo) {
   for (const std::string preset : {"reduction.preset=fast", "reduction.preset=accurate"}) {
-    std::vector<VolumeCheck> checks{on_land({preset}), check("passive_inflation", {preset}),
-                                    check("healthy_lv", {preset})};
-    if (preset == "reduction.preset=fast") checks.push_back(two_ventricles(preset));
+    const std::vector<VolumeCheck> checks{on_land({preset}), check("passive_inflation", {preset}),
+                                          check("healthy_lv", {preset}), two_ventricles(preset)};
     for (const VolumeCheck& found : checks) {
       EXPECT_THAT(found.warnings, IsEmpty()) << preset;
       ASSERT_TRUE(found.inf_sup);
-      EXPECT_GT(found.inf_sup->beta(), 1.5 * kUnstableInfSup);  // measured: 0.54 to 0.91
-      EXPECT_GT(found.compliance_ratio, 0.85);                  // 0.887 to 0.962
+      EXPECT_GT(found.inf_sup->beta(), 1.5 * kUnstableInfSup);  // measured: 0.836 to 0.965
+      EXPECT_GT(found.compliance_ratio, 0.85);                  // 0.889 to 0.966
       EXPECT_LT(found.compliance_ratio, 1);
       EXPECT_GT(found.displacements, 3 * found.inf_sup->pressures);
     }
   }
-}
-
-// Measured: 0.288. Its pressures c and ct are held weakly where the right wall joins.
-TEST(VolumeCheck, WarnsOfTheAccuratePresetOnTwoVentricles) {
-  const VolumeCheck found = two_ventricles("reduction.preset=accurate");
-  EXPECT_THAT(found.warnings, ElementsAre(HasSubstr("inf-sup constant")));
-  EXPECT_EQ(found.inf_sup->spurious, 0);
 }
 
 TEST(VolumeCheck, WarnsOfAffineFramesWithEveryPoint) {

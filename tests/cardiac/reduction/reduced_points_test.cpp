@@ -27,6 +27,22 @@ TEST(ReducedPoints, SegmentsAreAlikeWhereTheirFactorsAre) {
   EXPECT_EQ(segment_kinds(protocol), std::vector<int>(29, 0));
 }
 
+// Some sectors of segments only touch a cell of two ventricles, whose angles are not quite those of the
+// sectors.
+TEST(ReducedPoints, FillTheWallWhereSectorsOnlyTouchACell) {
+  Protocol protocol = testing::shipped_protocol(
+      "healthy_biv",
+      {"mesh.file=\"" PROJECT_DIR "/meshes/healthy_biv_coarse.vtu\"", "reduction.ring_nodes=[6,8,8]"});
+  scene::RegionOverride scar;
+  scar.segments = {7, 8};
+  scar.stiffness_factor = 4;
+  protocol.regions = {scar};
+  const auto anatomy = testing::read_anatomy(protocol);
+  const Discretisation d = reduced_discretisation(*anatomy, protocol);
+  const double volume = anatomy->coordinates->space().wall_points(4).weights.sum();
+  EXPECT_NEAR(d.points.weights.sum(), volume, 1e-9 * volume);
+}
+
 // Means over segments against those over the Gauss points of all elements.
 TEST(ReducedPoints, StrainPointsGiveTheMeansOfSegments) {
   const Protocol protocol = testing::shipped_protocol("healthy_lv", testing::on_land_ellipsoid({}));

@@ -140,8 +140,12 @@ std::string other_value(const std::string& path, const Key& key, const Json& val
                                                          {"activation.sites_mm", "[[7.0, 0.0, 0.0]]"},
                                                          {"time.max_step_ms", "0.1"},
                                                          {"region.segments", "[8]"}};
-  // They are there where regions differ.
-  if (path == "reduction.border_functions") return base.reduction.border_functions.value() ? "false" : "true";
+  // They are there where regions differ; elsewhere other keys that play no part may forbid them.
+  if (path == "reduction.border_functions") {
+    const bool frames =
+        base.reduction.method == scene::Method::polyaffine && base.reduction.weights == scene::Weights::tents;
+    return frames && !base.reduction.border_functions.value() ? "true" : "false";
+  }
   // Of one ventricle it chooses functions alone, and the bases name theirs.
   if (path == "reduction.preset") return "";
   if (const auto found = chosen.find(path); found != chosen.end()) return found->second;

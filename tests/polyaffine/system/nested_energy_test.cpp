@@ -20,9 +20,9 @@ namespace {
 using testing::random_vector;
 using testing::tangent;
 
-constexpr int kScalar = 5;                 // scalar functions
-constexpr double kMu = 10, kKappa = 200;   // kPa
-constexpr double kRounding = 1e-10;        // of a sum over some hundred points
+constexpr int kScalar = 5;                // scalar functions
+constexpr double kMu = 10, kKappa = 200;  // kPa
+constexpr double kRounding = 1e-10;       // of a sum over some hundred points
 
 // Quadratic elements of a box and functions nested in them: five scalar ones, each by random values at some
 // of the nodes, and six random modes.
@@ -79,7 +79,9 @@ TEST(NestedEnergy, GradientAndTangentMatchFiniteDifferences) {
   const auto gradient = [&](const Vector& x) { return energy.evaluate({x}).gradient; };
   const auto value = [&](const Vector& x) { return energy.evaluate({x}).value; };
   EXPECT_TRUE(check_gradient(value, gradient, c).passed);
-  EXPECT_TRUE(check_jacobian(gradient, [&](const Vector& x) { return tangent(energy, {x}); }, c).passed);
+  EXPECT_TRUE(check_jacobian(
+                  gradient, [&](const Vector& x) { return tangent(energy, {x}); }, c)
+                  .passed);
 }
 
 TEST(NestedEnergy, PointsAddUpToTheForce) {
