@@ -28,15 +28,6 @@ PointState state_of(const Vector& tension) {
   return {tension.data(), static_cast<std::size_t>(tension.size())};
 }
 
-void add_forces(const Ventricle& ventricle, FullState& state) {
-  const WallLoad load = wall_load(ventricle, state.load);
-  const bool mixed = state.pressure.size() > 0;
-  auto value = ventricle.wall->evaluate(
-      {state.u, state_of(load.tension), nullptr, mixed ? &state.pressure : nullptr});
-  state.force = std::move(value.gradient);
-  if (mixed) state.change = std::move(value.pressure_gradient);
-}
-
 // Newton's method in the mixed form from a displacement and the pressures of the elements. A reduced model's
 // displacement would make wild pressures by itself.
 bool newton_from(const FullState& near, const System& system, polyaffine::LinearSystem& linear, Vector& u,
@@ -85,17 +76,13 @@ std::optional<FullState> FullOrder::solve(const TrainingLoad& load, const FullSt
   const Ventricle v = ventricle(load);
   const System system = loaded_ventricle(v, wall_load(v, load));
   FullState out{load, {}, {}};
-  if (near && newton_from(*near, system, *linear_, out.u, out.pressure)) {
-    add_forces(v, out);
-    return out;
-  }
+  if (near && newton_from(*near, system, *linear_, out.u, out.pressure)) return out;
   out.u = Vector::Zero(v.num_coefficients());
   polyaffine::LoadOptions options;
   options.newton.tolerance = options.newton.defect_tolerance = kTolerance;
   options.newton.contraction = 0.3;
   if (!polyaffine::load_stepping(system, *linear_, out.u, options).converged()) return std::nullopt;
   if (v.wall->pressure_space()) out.pressure = v.wall->pressure(out.u);
-  add_forces(v, out);
   return out;
 }
 
@@ -113,12 +100,11 @@ std::vector<FullState> FullOrder::linear_answers(const FullState& state,
   const Vector before = force(v, load);
   Matrix rhs(state.u.size(), std::ssize(changes));
   std::vector<FullState> out;
-  std::vector<Ventricle> others;
   for (std::size_t k = 0; k < changes.size(); ++k) {
     TrainingLoad changed = state.load;
     changed.regions.push_back(changes[k]);
-    others.push_back(ventricle(changed));
-    rhs.col(static_cast<Eigen::Index>(k)) = before - force(others.back(), wall_load(others.back(), changed));
+    const Ventricle other = ventricle(changed);
+    rhs.col(static_cast<Eigen::Index>(k)) = before - force(other, wall_load(other, changed));
     out.push_back({std::move(changed), {}, {}});
   }
   for (std::size_t i = 0; i < discretisation_.fixed.size(); ++i)
@@ -128,7 +114,6 @@ std::vector<FullState> FullOrder::linear_answers(const FullState& state,
     const Vector step = answers.col(static_cast<Eigen::Index>(k));
     out[k].u = state.u + step;
     if (mixed) out[k].pressure = state.pressure + v.wall->penalty_pressure(v.wall->volume_change(state.u, step));
-    add_forces(others[k], out[k]);
   }
   return out;
 }

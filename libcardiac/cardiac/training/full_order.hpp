@@ -19,13 +19,11 @@ struct TrainingLoad {
   std::vector<scene::RegionOverride> regions{};
 };
 
-/// The wall under a load: nodal displacement (3 · nodes, mm) and the pressure of each element (kPa), and with
-/// these the nodal forces of the wall (mN) and the change of each element's volume, g − M p/κ (mm³; without a
-/// pressure space empty, as the pressure).
+/// The wall under a load: nodal displacement (3 · nodes, mm) and the pressure of each element (kPa; empty
+/// without a pressure space).
 struct FullState {
   TrainingLoad load;
   polyaffine::Vector u, pressure;
-  polyaffine::Vector force{}, change{};
 };
 
 /// The scene with the load's regions beside its own.

@@ -1,6 +1,7 @@
 #include "cardiac/training/nested_rule.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 
 namespace cardiac {
@@ -14,6 +15,8 @@ namespace {
 
 constexpr double kVolumeMatters = 3;   // a relative error of the cavity's volume counts so many times
 constexpr double kCavityShare = 0.5;   // of the accuracy of the wall
+// One in so many of the wall's points is a candidate, within bounds.
+constexpr Eigen::Index kThinned = 15, kFewestCandidates = 600, kMostCandidates = 3000;
 constexpr int kCavityCandidates = 1200;
 
 // About `wanted` of some points, each for the same share of the whole.
@@ -71,8 +74,7 @@ struct NestedRuleTraining::Measure {
   }
 };
 
-NestedRuleTraining::NestedRuleTraining(FullOrder& full, const HeartModes& modes, const NestedSpace& space,
-                                       int candidates)
+NestedRuleTraining::NestedRuleTraining(FullOrder& full, const HeartModes& modes, const NestedSpace& space)
     : full_(full),
       modes_(modes),
       space_(space),
@@ -83,7 +85,8 @@ NestedRuleTraining::NestedRuleTraining(FullOrder& full, const HeartModes& modes,
       root_(metric_.llt().matrixU()),
       wall_(0) {
   const auto& points = nested_.points;
-  wall_points_ = candidates_of(basis_, points.tet, points.barycentric, points.weights, candidates);
+  wall_points_ = candidates_of(basis_, points.tet, points.barycentric, points.weights,
+                                static_cast<int>(std::clamp<Eigen::Index>(points.weights.size() / kThinned, kFewestCandidates, kMostCandidates)));
   candidates_.points = kept(points, wall_points_);
   wall_ = CubatureTraining(std::ssize(wall_points_.points));
   for (std::size_t k = 0; k < nested_.cavities.size(); ++k) {
@@ -122,15 +125,20 @@ bool NestedRuleTraining::add(const FullState& state) {
 void NestedRuleTraining::add_wall(const Measure& at, const FullState& state) {
   const polyaffine::FieldEnergy& wall = *at.ventricle.wall;
   const bool mixed = wall.pressure_space().has_value();
+  const Ventricle full = full_.ventricle(state.load);
+  const WallLoad full_load = wall_load(full, state.load);
+  const Vector element_pressure = mixed ? Vector(space_.pressures.transpose() * at.pressure) : Vector();
+  const auto whole = full.wall->evaluate({basis_.nodal(at.c), state_of(full_load.tension), nullptr,
+                                          mixed ? &element_pressure : nullptr});
   const auto terms = wall.point_terms(
       {at.c, state_of(at.load.tension), nullptr, mixed ? &at.pressure : nullptr});
   const Eigen::Index n = terms.gradient.cols();
   Matrix forces(at.c.size(), n + 1);
-  forces << terms.gradient, basis_.transpose(state.force);
+  forces << terms.gradient, basis_.transpose(whole.gradient);
   if (mixed) {
     // g − M p/κ of each candidate and of all points; what the pressure's own mass adds is the same for both.
     Matrix changes(space_.pressures.rows(), n + 1);
-    changes << terms.pressure_gradient, space_.pressures * state.change;
+    changes << terms.pressure_gradient, space_.pressures * whole.pressure_gradient;
     const auto& space = *wall.pressure_space();
     for (Eigen::Index q = 0; q < n; ++q) {
       const auto values = space_.pressures.col(candidates_.points.tet[static_cast<std::size_t>(q)]);

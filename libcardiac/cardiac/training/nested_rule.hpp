@@ -21,7 +21,7 @@ struct NestedRule {
 class NestedRuleTraining {
  public:
   /// All of them must outlive it.
-  NestedRuleTraining(FullOrder& full, const HeartModes& modes, const NestedSpace& space, int candidates);
+  NestedRuleTraining(FullOrder& full, const HeartModes& modes, const NestedSpace& space);
 
   /// A state by its full-order displacement and pressures, of which the space holds the nearest. False where
   /// its tangent is singular, so that it says nothing.

@@ -16,11 +16,10 @@ using polyaffine::Vector;
 
 namespace {
 
-constexpr int kCandidates = 3000;
 // Shares of the accuracy (of displacement in L2, where a tolerance is of its gradient).
-constexpr double kPathShare = 0.3, kNeighbourShare = 1, kRuleShare = 0.5;
+constexpr double kPathShare = 0.3, kNeighbourShare = 0.8, kRuleShare = 0.4;
 // Pressures want to be fewer than displacements: with modes alone more of them hold the wall back.
-constexpr double kPressureShare = 10, kPressureShareOfFrames = 2;
+constexpr double kPressureShare = 6, kPressureShareOfFrames = 2;
 constexpr int kMostModes = 75;
 constexpr double kRefinement = 0.6;  // of the tolerances, from round to round
 
@@ -81,14 +80,13 @@ class Tuning {
       model.reached = found.displacement_percent <= control_.accuracy_percent;
       const double a_round = found.seconds / (round + 1);
       if (model.reached || found.seconds + a_round > control_.budget_s) return model;
-      // What the space itself does not hold asks for modes, the rest for points.
-      if (found.best_percent > 0.4 * found.displacement_percent) {
+      // More modes help only where the space itself is far from the truth.
+      if (found.best_percent > 0.3 * found.displacement_percent) {
         options.tolerance *= kRefinement;
         options.neighbour_tolerance *= kRefinement;
-      } else {
-        rule *= kRefinement;
-        options.pressure_tolerance *= kRefinement;
       }
+      rule *= kRefinement;
+      options.pressure_tolerance *= kRefinement;
     }
   }
 
@@ -135,7 +133,7 @@ class Tuning {
   void build(const HeartModes::Options& options, double rule_accuracy, int round, TunedModel& model) {
     model.space = modes_.space(path_, neighbours_, options);
     tell("points for " + std::to_string(model.space.num_modes) + " modes");
-    NestedRuleTraining training(full_, modes_, model.space, kCandidates);
+    NestedRuleTraining training(full_, modes_, model.space);
     for (const auto* states : {&path_, &neighbours_})
       for (const FullState& state : *states) {
         tell("round " + std::to_string(round + 1) + ": forces of " + state.load.name);
