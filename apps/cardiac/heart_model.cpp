@@ -15,27 +15,28 @@ Protocol load_model(const std::filesystem::path& file, const std::vector<std::st
   Protocol out = parse_protocol(model.protocol, model.source, all);
   out.heart = model.heart;
   if (structure_key(*out.heart, out) != model.structure)
-    throw polyaffine::InputError(
-        file.string() +
-        ": found --set that changes mesh, fibres, tissue.law, boundary, reduction or whether the wall contracts, "
-        "expected the values that the model was learned for (loads, contraction, tissue parameters and regions "
-        "may differ)");
+    throw polyaffine::InputError(file.string() +
+                                 ": found --set that changes mesh, fibres, tissue.law, boundary, reduction "
+                                 "or whether the wall contracts, "
+                                 "expected the values that the model was learned for (loads, contraction, "
+                                 "tissue parameters and regions "
+                                 "may differ)");
   TunedModel tuned = *model.tuned;
   complete(*out.heart, out, tuned);
   out.tuned = std::make_shared<const TunedModel>(std::move(tuned));
   return out;
 }
 
-void save_model(const std::filesystem::path& file, const Protocol& protocol, const std::filesystem::path& source,
-                const std::vector<std::string>& overrides) {
+void save_model(const std::filesystem::path& file, const Protocol& protocol,
+                const std::filesystem::path& source, const std::vector<std::string>& overrides) {
   std::ifstream stream(source);
   std::ostringstream text;
   text << stream.rdbuf();
   if (!stream) throw polyaffine::InputError(source.string() + ": cannot be read");
   std::vector<std::string> all = overrides;
   all.emplace_back("reduction.preset=tuned");
-  write_heart_model(file, {text.str(), source.string(), std::move(all), structure_key(*protocol.heart, protocol),
-                           protocol.heart, protocol.tuned});
+  write_heart_model(file, {text.str(), source.string(), std::move(all),
+                           structure_key(*protocol.heart, protocol), protocol.heart, protocol.tuned});
 }
 
 }  // namespace cardiac::app

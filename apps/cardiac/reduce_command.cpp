@@ -26,12 +26,13 @@ struct ReduceOptions {
 };
 
 void print_head() {
-  std::cout << "full-order solves  unknowns  points  seconds  held out: displacement %  volume %  worst load\n";
+  std::cout
+      << "full-order solves  unknowns  points  seconds  held out: displacement %  volume %  worst load\n";
 }
 
 void print_round(const TuningRound& r) {
-  std::cout << std::fixed << std::setw(17) << r.full_order_solves << std::setw(10) << r.unknowns << std::setw(8)
-            << r.points << std::setw(9) << std::setprecision(1) << r.seconds << std::setw(25)
+  std::cout << std::fixed << std::setw(17) << r.full_order_solves << std::setw(10) << r.unknowns
+            << std::setw(8) << r.points << std::setw(9) << std::setprecision(1) << r.seconds << std::setw(25)
             << std::setprecision(2) << r.displacement_percent << std::setw(10) << r.volume_percent << "  "
             << r.worst << std::endl;
 }
@@ -69,7 +70,8 @@ void reduce(const ReduceOptions& options) {
   const TuningRound& last = protocol.tuned->rounds.back();
   if (!options.quiet)
     std::cout << std::fixed << std::setprecision(2) << options.out << ": " << last.unknowns << " unknowns, "
-              << last.points << " points, " << last.displacement_percent << " % of displacement off at most in "
+              << last.points << " points, " << last.displacement_percent
+              << " % of displacement off at most in "
               << "loads held out, learned from " << last.full_order_solves << " full-order solves in "
               << std::setprecision(0) << last.seconds << " s\n";
   if (!protocol.tuned->reached)

@@ -199,8 +199,8 @@ void run(RunOptions options) {
     throw polyaffine::InputError(options.model.empty()
                                      ? "run: found neither PROTOCOL nor --model, expected one of them"
                                      : "run: found PROTOCOL and --model, expected one of them");
-  Protocol protocol = options.model.empty() ? load_input(given_or_example(options.protocol), options.overrides,
-                                                         {.insist = options.force})
+  Protocol protocol = options.model.empty() ? load_input(given_or_example(options.protocol),
+                                                         options.overrides, {.insist = options.force})
                                             : load_model(options.model, options.overrides);
   if (protocol.output.mesh_series && !writes_mesh_series()) {
     protocol.output.mesh_series = false;
@@ -211,10 +211,10 @@ void run(RunOptions options) {
   print_warnings(protocol.warnings);
   if (options.dry_run) return print_plan(items);
   const std::filesystem::path out =
-      options.out.empty() ? std::filesystem::path("results") /
-                                std::filesystem::path(options.model.empty() ? options.protocol : options.model)
-                                    .stem()
-                          : std::filesystem::path(options.out);
+      options.out.empty()
+          ? std::filesystem::path("results") /
+                std::filesystem::path(options.model.empty() ? options.protocol : options.model).stem()
+          : std::filesystem::path(options.out);
   polyaffine::make_folder(out);
   if (protocol.mesh.file && options.model.empty()) check_not_a_result(mesh_path(protocol), out);
 

@@ -254,13 +254,14 @@ Table reduction_table() {
             .used_with = "preset",
             .used_values = {"tuned"},
             .also = {reduced()}})
-      .key("affine_frames", &Reduction::affine_frames,
-           {.meaning = "whether the affine functions of the control nodes stay unknowns beside the modes of a "
-                       "tuned model: nearer in regions that it did not learn, at several times the cost",
-            .source = "measured: cardiac bench",
-            .used_with = "preset",
-            .used_values = {"tuned"},
-            .also = {reduced()}});
+      .key(
+          "affine_frames", &Reduction::affine_frames,
+          {.meaning = "whether the affine functions of the control nodes stay unknowns beside the modes of a "
+                      "tuned model: nearer in regions that it did not learn, at several times the cost",
+           .source = "measured: cardiac bench",
+           .used_with = "preset",
+           .used_values = {"tuned"},
+           .also = {reduced()}});
   return table.build();
 }
 

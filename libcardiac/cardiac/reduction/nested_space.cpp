@@ -75,8 +75,7 @@ NestedSpace affine_space(const Anatomy& anatomy, const Scene& scene) {
   for (int i = 0; i < field->num_frames(); ++i)
     functions[i].monomials = i < layout.num_nodes() ? polyaffine::affine_monomials()
                                                     : std::vector<polyaffine::Monomial>{{1, 0, 0}};
-  const polyaffine::NodalFunctions values =
-      at_nodes(anatomy, polyaffine::FrameBasis(field, functions));
+  const polyaffine::NodalFunctions values = at_nodes(anatomy, polyaffine::FrameBasis(field, functions));
   const std::vector<char> keep = independent_columns(Matrix(values.transpose() * values));
   int f = 0;
   for (auto& frame : functions)
@@ -102,7 +101,8 @@ Discretisation nested_discretisation(const Anatomy& anatomy, const Scene& scene,
   for (std::size_t q = 0; q < full.points.tet.size(); ++q)
     volume[full.points.tet[q]] += full.points.weights[static_cast<Eigen::Index>(q)];
   out.pressure_mass = space.pressures * volume.asDiagonal() * space.pressures.transpose();
-  const int unknowns = 3 * out.basis->num_functions(), padding = static_cast<int>(space.modes.cols()) - space.num_modes;
+  const int unknowns = 3 * out.basis->num_functions(),
+            padding = static_cast<int>(space.modes.cols()) - space.num_modes;
   out.num_unknowns = unknowns - padding;
   out.fixed.assign(unknowns, 0);
   std::fill(out.fixed.end() - padding, out.fixed.end(), 1);
@@ -123,6 +123,8 @@ namespace {
 
 // A block may see this many times the functions of its points.
 constexpr double kSlack = 1.3;
+// Points of a block: what is computed point by point grows with the square.
+constexpr std::ptrdiff_t kMostPoints = 32;
 
 // Which points stand together in a block: greedily, the largest sets of functions first.
 std::vector<std::vector<int>> blocks_of(const polyaffine::Basis& basis, const std::vector<int>& tet,
@@ -152,7 +154,11 @@ std::vector<std::vector<int>> blocks_of(const polyaffine::Basis& basis, const st
   std::vector<std::vector<int>> out;
   for (Block& block : blocks) {
     std::ranges::sort(block.points);
-    out.push_back(std::move(block.points));
+    for (auto first = block.points.begin(); first != block.points.end();) {
+      const auto last = first + std::min(kMostPoints, block.points.end() - first);
+      out.emplace_back(first, last);
+      first = last;
+    }
   }
   return out;
 }

@@ -66,7 +66,7 @@ struct RunControl {
   std::function<void()> on_solved{};    ///< and when it is solved, before the path is told in strains
   std::function<void()> on_distrust{};  ///< called by simulate before it begins anew with all points
   std::function<void(const TuningRound&)> on_round{};  ///< called after each round of a tuning
-  bool keep_absurd = false;             ///< an absurd result counts as completed, with a warning
+  bool keep_absurd = false;  ///< an absurd result counts as completed, with a warning
 };
 
 /// Beats of one or two ventricles coupled to their circulation, from the wall filled to the filling pressures

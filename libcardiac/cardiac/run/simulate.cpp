@@ -36,7 +36,8 @@ HeartPath trusted_path(Ventricle& model, const Scene& scene, const RunControl& c
 }
 
 bool is_tuned(const Scene& scene) {
-  return scene.reduction.method == scene::Method::polyaffine && scene.reduction.preset == scene::Preset::tuned;
+  return scene.reduction.method == scene::Method::polyaffine &&
+         scene.reduction.preset == scene::Preset::tuned;
 }
 
 }  // namespace

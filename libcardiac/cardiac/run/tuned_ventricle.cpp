@@ -38,8 +38,8 @@ std::string percent(double value) {
 
 }  // namespace
 
-std::shared_ptr<const TunedModel> tuned_model(const std::shared_ptr<const Anatomy>& anatomy, const Scene& scene,
-                                              const RunControl& control) {
+std::shared_ptr<const TunedModel> tuned_model(const std::shared_ptr<const Anatomy>& anatomy,
+                                              const Scene& scene, const RunControl& control) {
   if (scene.tuned) return scene.tuned;
   if (auto kept = cached_model(*anatomy, scene)) return std::make_shared<const TunedModel>(std::move(*kept));
   const Scene plain = untrained(*anatomy, scene);
@@ -77,9 +77,10 @@ std::vector<std::string> tuned_warnings(const TunedModel& model, const Scene& sc
   const KeyStates key = key_states(path, scene);
   for (const auto& [name, state] : {std::pair{"end diastole", &key.ed}, std::pair{"end systole", &key.es}})
     if (const double share = 100 * outside(model, state->c); share > scene.reduction.accuracy_percent)
-      out.push_back("at " + std::string(name) + " the wall is " + percent(share) +
-                    " outside of what the tuned model learned from: its error may be several times that of its "
-                    "training; tune it for this protocol (cardiac reduce), or --verify");
+      out.push_back(
+          "at " + std::string(name) + " the wall is " + percent(share) +
+          " outside of what the tuned model learned from: its error may be several times that of its "
+          "training; tune it for this protocol (cardiac reduce), or --verify");
   return out;
 }
 

@@ -17,8 +17,8 @@ constexpr const char* kEmptied = "end systole";
 // Of a segment in the linear answers: far enough to be seen beside the state, near enough to be linear.
 constexpr double kWeak = 0.4, kStiff = 2;
 
-TrainingLoad load_at(const std::string& name, const HeartState& state, double beat_start_ms, double pressure = 1,
-                     double level = 1) {
+TrainingLoad load_at(const std::string& name, const HeartState& state, double beat_start_ms,
+                     double pressure = 1, double level = 1) {
   TrainingLoad out;
   out.name = name;
   out.pressures_kPa = pressure * state.pressures_kPa;
@@ -113,8 +113,8 @@ TuningPlan tuning_plan(const HeartPath& path, const Ventricle& untrained, const 
   TuningPlan out;
   out.path.push_back(load_at(kFilled, filled, begin));
   out.path.push_back(load_at("end diastole, pressure × 0.4", filled, begin, 0.4));
-  out.path.push_back(load_at("end diastole, pressure × " + std::string(contracts ? "2" : "1.25"), filled, begin,
-                             contracts ? 2 : 1.25));
+  out.path.push_back(load_at("end diastole, pressure × " + std::string(contracts ? "2" : "1.25"), filled,
+                             begin, contracts ? 2 : 1.25));
   for (const HeartState* s : even_instants(path, untrained, kInstants, 0))
     if (s->pressures_kPa.size() == 0 || s->pressures_kPa.norm() > 0)
       out.path.push_back(load_at(at_time(*s), *s, begin));
@@ -127,7 +127,8 @@ TuningPlan tuning_plan(const HeartPath& path, const Ventricle& untrained, const 
     out.path.push_back(load_at("end systole, pressure and tension × 1.2", key.es, begin, 1.2, 1.2));
     out.path.push_back(load_at("end systole, tension × 1.3", key.es, begin, 1, 1.3));
     if (key.es.pressures_kPa.size() > 1)
-      out.path.push_back(with_cavity(load_at("", key.es, begin), "end systole, right pressure × 1.5", 1, 1.5));
+      out.path.push_back(
+          with_cavity(load_at("", key.es, begin), "end systole, right pressure × 1.5", 1, 1.5));
     out.neighbours.push_back({kEmptied, each_segment(segments, kWeak, 1)});
     out.neighbours.push_back({kEmptied, each_segment(segments, 1, kStiff)});
   }

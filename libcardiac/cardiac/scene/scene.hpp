@@ -40,7 +40,7 @@ struct Reduction {
   std::optional<std::vector<double>> ring_positions;   ///< apicobasal, 0 apex to 1 base
   std::optional<std::vector<double>> ring_angles_deg;  ///< rotational, of each ring's first node
   Integration integration = Integration::cells;
-  int element_order = 2;  ///< of the full-order model
+  int element_order = 2;        ///< of the full-order model
   bool affine_frames = false;   ///< from here on of the tuned preset: frames stay unknowns beside the modes
   double accuracy_percent = 1;  ///< of displacement against full order
   double budget_s = 900;        ///< time that its training may take
@@ -164,7 +164,7 @@ namespace cardiac {
 /// and told. A part that is absent is not built. A value may be put together in C++ or be read from a text
 /// (load_protocol).
 struct Scene {
-  std::shared_ptr<const Anatomy> heart;  ///< the mesh with coordinates and segments; needed by simulate
+  std::shared_ptr<const Anatomy> heart;     ///< the mesh with coordinates and segments; needed by simulate
   std::shared_ptr<const TunedModel> tuned;  ///< learned for it before; null: preset tuned learns it
   scene::Reduction reduction;
   scene::Tissue tissue;

@@ -95,7 +95,8 @@ std::vector<FullState> FullOrder::linear_answers(const FullState& state,
   if (!tangent.factorise({1, state.u}, 0)) return {};
   const bool mixed = v.wall->pressure_space().has_value();
   const auto force = [&](const Ventricle& of, const WallLoad& at) {
-    return of.wall->evaluate({state.u, state_of(at.tension), nullptr, mixed ? &state.pressure : nullptr}).gradient;
+    return of.wall->evaluate({state.u, state_of(at.tension), nullptr, mixed ? &state.pressure : nullptr})
+        .gradient;
   };
   const Vector before = force(v, load);
   Matrix rhs(state.u.size(), std::ssize(changes));
@@ -113,7 +114,8 @@ std::vector<FullState> FullOrder::linear_answers(const FullState& state,
   for (std::size_t k = 0; k < out.size(); ++k) {
     const Vector step = answers.col(static_cast<Eigen::Index>(k));
     out[k].u = state.u + step;
-    if (mixed) out[k].pressure = state.pressure + v.wall->penalty_pressure(v.wall->volume_change(state.u, step));
+    if (mixed)
+      out[k].pressure = state.pressure + v.wall->penalty_pressure(v.wall->volume_change(state.u, step));
   }
   return out;
 }

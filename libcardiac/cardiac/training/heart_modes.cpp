@@ -163,13 +163,15 @@ Matrix HeartModes::metric(const NestedSpace& space) const {
 
 Matrix HeartModes::mass(const NestedSpace& space) const {
   const Eigen::Index scalar = frame_metric_.rows(), modes = space.modes.cols(), nodes = node_volumes_.size();
-  const Matrix frames = Matrix(space.frames.transpose() * Matrix(node_volumes_.asDiagonal() * Matrix(space.frames)));
+  const Matrix frames =
+      Matrix(space.frames.transpose() * Matrix(node_volumes_.asDiagonal() * Matrix(space.frames)));
   Matrix weighted = space.modes;
   for (Eigen::Index node = 0; node < nodes; ++node) weighted.middleRows<3>(3 * node) *= node_volumes_[node];
   Matrix out = Matrix::Zero(3 * scalar + modes, 3 * scalar + modes);
   out.bottomRightCorner(modes, modes) = space.modes.transpose() * weighted;
   for (Eigen::Index k = 0; k < modes; ++k) {
-    const Matrix mixed = (space.frames.transpose() * weighted.col(k).reshaped(3, nodes).transpose()).transpose();
+    const Matrix mixed =
+        (space.frames.transpose() * weighted.col(k).reshaped(3, nodes).transpose()).transpose();
     out.col(3 * scalar + k).head(3 * scalar) = mixed.reshaped();
     out.row(3 * scalar + k).head(3 * scalar) = mixed.reshaped().transpose();
   }
@@ -183,8 +185,7 @@ Matrix HeartModes::mass(const NestedSpace& space) const {
 Vector HeartModes::nearest(const NestedSpace& space, const Matrix& metric, const Vector& u) const {
   const Matrix slopes = gradient(u);
   Vector products(metric.rows());
-  products.head(3 * frame_metric_.rows()) =
-      (frame_gradients_.transpose() * slopes).transpose().reshaped();
+  products.head(3 * frame_metric_.rows()) = (frame_gradients_.transpose() * slopes).transpose().reshaped();
   const Vector forces = (nabla_.transpose() * slopes).transpose().reshaped();
   products.tail(space.modes.cols()) = space.modes.transpose() * forces;
   return metric.llt().solve(products);

@@ -13,8 +13,8 @@ using polyaffine::Vector;
 
 namespace {
 
-constexpr double kVolumeMatters = 3;   // a relative error of the cavity's volume counts so many times
-constexpr double kCavityShare = 0.5;   // of the accuracy of the wall
+constexpr double kVolumeMatters = 3;  // a relative error of the cavity's volume counts so many times
+constexpr double kCavityShare = 0.5;  // of the accuracy of the wall
 // One in so many of the wall's points is a candidate, within bounds.
 constexpr Eigen::Index kThinned = 15, kFewestCandidates = 600, kMostCandidates = 3000;
 constexpr int kCavityCandidates = 1200;
@@ -86,7 +86,8 @@ NestedRuleTraining::NestedRuleTraining(FullOrder& full, const HeartModes& modes,
       wall_(0) {
   const auto& points = nested_.points;
   wall_points_ = candidates_of(basis_, points.tet, points.barycentric, points.weights,
-                                static_cast<int>(std::clamp<Eigen::Index>(points.weights.size() / kThinned, kFewestCandidates, kMostCandidates)));
+                               static_cast<int>(std::clamp<Eigen::Index>(
+                                   points.weights.size() / kThinned, kFewestCandidates, kMostCandidates)));
   candidates_.points = kept(points, wall_points_);
   wall_ = CubatureTraining(std::ssize(wall_points_.points));
   for (std::size_t k = 0; k < nested_.cavities.size(); ++k) {
@@ -101,8 +102,7 @@ NestedRuleTraining::NestedRuleTraining(FullOrder& full, const HeartModes& modes,
 
 bool NestedRuleTraining::add(const FullState& state) {
   Measure at;
-  at.ventricle =
-      assemble_ventricle(full_.anatomy(), with_regions(full_.scene(), state.load), candidates_);
+  at.ventricle = assemble_ventricle(full_.anatomy(), with_regions(full_.scene(), state.load), candidates_);
   at.c = modes_.nearest(space_, metric_, state.u);
   at.load = wall_load(at.ventricle, state.load);
   at.size = (root_ * at.c).norm();
@@ -128,10 +128,10 @@ void NestedRuleTraining::add_wall(const Measure& at, const FullState& state) {
   const Ventricle full = full_.ventricle(state.load);
   const WallLoad full_load = wall_load(full, state.load);
   const Vector element_pressure = mixed ? Vector(space_.pressures.transpose() * at.pressure) : Vector();
-  const auto whole = full.wall->evaluate({basis_.nodal(at.c), state_of(full_load.tension), nullptr,
-                                          mixed ? &element_pressure : nullptr});
-  const auto terms = wall.point_terms(
-      {at.c, state_of(at.load.tension), nullptr, mixed ? &at.pressure : nullptr});
+  const auto whole = full.wall->evaluate(
+      {basis_.nodal(at.c), state_of(full_load.tension), nullptr, mixed ? &element_pressure : nullptr});
+  const auto terms =
+      wall.point_terms({at.c, state_of(at.load.tension), nullptr, mixed ? &at.pressure : nullptr});
   const Eigen::Index n = terms.gradient.cols();
   Matrix forces(at.c.size(), n + 1);
   forces << terms.gradient, basis_.transpose(whole.gradient);
@@ -146,8 +146,7 @@ void NestedRuleTraining::add_wall(const Measure& at, const FullState& state) {
     }
     changes.col(n) += nested_.pressure_mass * at.pressure / space.bulk_modulus;
     const Matrix penalty = space.bulk_modulus * nested_.pressure_mass.llt().solve(changes);
-    for (Eigen::Index b = 0; b < changes.rows(); ++b)
-      forces.noalias() += wall.pressure_force(at.c, Vector::Unit(changes.rows(), b)) * penalty.row(b);
+    forces.noalias() += wall.volume_gradient(at.c).transpose() * penalty;
   }
   const Matrix moved = at.displaced(std::move(forces), nested_.fixed, root_);
   wall_.add(moved.leftCols(n), moved.col(n), moved);
@@ -173,7 +172,8 @@ NestedRule NestedRuleTraining::select(double accuracy) const {
   };
   NestedRule out;
   const auto& points = nested_.points;
-  out.wall = chosen(basis_, points.tet, points.barycentric, wall_points_, wall_.select(share(wall_, accuracy)));
+  out.wall =
+      chosen(basis_, points.tet, points.barycentric, wall_points_, wall_.select(share(wall_, accuracy)));
   for (std::size_t k = 0; k < cavities_.size(); ++k) {
     const auto& surface = nested_.cavities[k].points;
     out.cavities.push_back(chosen(basis_, surface.tet, surface.barycentric, cavity_points_[k],

@@ -78,12 +78,14 @@ void check(ArchiveReader& a, const TunedModel& x) {
     const auto n = static_cast<Eigen::Index>(points.tet.size());
     bool good = points.barycentric.cols() == n && points.weights.size() == n && !points.starts.empty() &&
                 points.starts.front() == 0 && points.starts.back() == n;
-    for (std::size_t k = 1; k < points.starts.size(); ++k) good = good && points.starts[k - 1] <= points.starts[k];
+    for (std::size_t k = 1; k < points.starts.size(); ++k)
+      good = good && points.starts[k - 1] <= points.starts[k];
     for (const int t : points.tet) good = good && t >= 0 && t < tets;
     return good;
   };
-  bool good = inside(x.wall) && !x.rounds.empty() && x.space.modes.cols() % 3 == 0 && x.space.num_modes >= 0 &&
-              x.space.modes.cols() >= x.space.num_modes && x.space.modes.cols() < x.space.num_modes + 3 &&
+  bool good = inside(x.wall) && !x.rounds.empty() && x.space.modes.cols() % 3 == 0 &&
+              x.space.num_modes >= 0 && x.space.modes.cols() >= x.space.num_modes &&
+              x.space.modes.cols() < x.space.num_modes + 3 &&
               x.pressure_mass.rows() == x.space.pressures.rows() &&
               x.pressure_mass.cols() == x.space.pressures.rows() && x.coordinates.rows() == x.least.size() &&
               x.largest.size() == x.least.size();
@@ -126,7 +128,7 @@ std::string structure_key(const Anatomy& anatomy, const Scene& scene) {
   key["mesh"] = polyaffine::digest(anatomy.mesh);
   key["law"] = scene.tissue.law;
   if (const auto& f = scene.fibres)
-    key["fibres"] = {f->source,         f->endo_angle_deg,    f->epi_angle_deg,
+    key["fibres"] = {f->source,          f->endo_angle_deg,    f->epi_angle_deg,
                      f->sheet_angle_deg, f->rv_endo_angle_deg, f->rv_epi_angle_deg};
   key["affine_frames"] = scene.reduction.affine_frames;
   key["contraction"] = scene.contraction.has_value();
@@ -157,8 +159,8 @@ std::string tuned_key(const Anatomy& anatomy, const Scene& scene) {
                           c->pulmonary_peripheral_resistance_kPa_ms_per_mm3};
   if (const auto& c = scene.cavities) key["cavities"] = {c->pressure_kPa, c->right_pressure_kPa};
   for (const auto& r : scene.regions)
-    key["regions"].push_back({r.segments, r.stiffness_factor, r.tension_factor, r.activation_delay_ms,
-                              r.border_width_percent});
+    key["regions"].push_back(
+        {r.segments, r.stiffness_factor, r.tension_factor, r.activation_delay_ms, r.border_width_percent});
   key["time"] = {scene.time.beat_ms, scene.time.duration_ms};
   key["tuning"] = {scene.reduction.accuracy_percent, scene.reduction.affine_frames};
   return structure_key(anatomy, scene) + ' ' + rule_key(anatomy, scene) + ' ' + key.dump();

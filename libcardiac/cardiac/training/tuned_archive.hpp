@@ -29,8 +29,8 @@ struct HeartModel {
 void write_heart_model(const std::filesystem::path& file, const HeartModel& model);
 HeartModel read_heart_model(const std::filesystem::path& file);
 
-/// What a scene must share with the one that a model was learned for: mesh, kind of tissue, fibres, boundary and
-/// the functions themselves. Loads, contraction, regions and parameters of the tissue may differ.
+/// What a scene must share with the one that a model was learned for: mesh, kind of tissue, fibres, boundary
+/// and the functions themselves. Loads, contraction, regions and parameters of the tissue may differ.
 std::string structure_key(const Anatomy& anatomy, const Scene& scene);
 /// What tells the tuned models of two scenes apart: the structure and all that their training reads.
 std::string tuned_key(const Anatomy& anatomy, const Scene& scene);

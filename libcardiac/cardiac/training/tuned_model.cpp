@@ -114,15 +114,14 @@ class Tuning {
       if (state)
         path_.push_back(std::move(*state));
       else if (path_.empty())
-        throw polyaffine::ComputationError("tuning: the full-order model has no equilibrium under its first load, " +
-                                           load.name);
+        throw polyaffine::ComputationError(
+            "tuning: the full-order model has no equilibrium under its first load, " + load.name);
     }
   }
 
   void add_linear_answers() {
     for (const TuningPlan::Changes& changes : plan_.neighbours) {
-      const auto state =
-          std::ranges::find(path_, changes.of, [](const FullState& s) { return s.load.name; });
+      const auto state = std::ranges::find(path_, changes.of, [](const FullState& s) { return s.load.name; });
       if (state == path_.end()) continue;
       tell("answers of " + changes.of + " to changes of the segments");
       for (FullState& answer : full_.linear_answers(*state, changes.regions))
@@ -156,7 +155,8 @@ class Tuning {
     Matrix states(metric.rows(), count);
     Eigen::Index s = 0;
     for (const auto* list : {&path_, &neighbours_})
-      for (const FullState& state : *list) states.col(s++) = root * modes_.nearest(model.space, metric, state.u);
+      for (const FullState& state : *list)
+        states.col(s++) = root * modes_.nearest(model.space, metric, state.u);
     const Eigen::BDCSVD<Matrix> svd(states, Eigen::ComputeThinU);
     const Matrix along = svd.matrixU().transpose() * states;
     model.coordinates = svd.matrixU().transpose() * root;
@@ -187,12 +187,12 @@ class Tuning {
   }
 
   // The model against full order under a load, which is then learned from. None where full order fails.
-  std::optional<Comparison> compare(const TrainingLoad& load, const TunedModel& model, const Discretisation& d) {
+  std::optional<Comparison> compare(const TrainingLoad& load, const TunedModel& model,
+                                    const Discretisation& d) {
     const Ventricle v = assemble_ventricle(full_.anatomy(), with_regions(full_.scene(), load), d);
     const polyaffine::System system = loaded_ventricle(v, wall_load(v, load));
     Vector c = Vector::Zero(v.num_coefficients());
-    const bool solved =
-        polyaffine::load_stepping(system, *system.make_linear(), c, {}).converged();
+    const bool solved = polyaffine::load_stepping(system, *system.make_linear(), c, {}).converged();
     const auto& basis = dynamic_cast<const polyaffine::NestedBasis&>(*d.basis);
     FullState start{load, basis.nodal(c), {}};
     if (v.wall->pressure_space()) start.pressure = model.space.pressures.transpose() * v.wall->pressure(c);

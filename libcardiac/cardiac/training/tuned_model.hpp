@@ -38,8 +38,8 @@ struct TunedModel {
   std::vector<CavitySurface> cavities;
   polyaffine::SurfacePoints epicardium;
   polyaffine::Matrix pressure_mass;
-  /// Where the states that it learned from lie: coordinates of coefficients c, an orthonormal set in the metric
-  /// of ‖∇u‖, and their least and largest values.
+  /// Where the states that it learned from lie: coordinates of coefficients c, an orthonormal set in the
+  /// metric of ‖∇u‖, and their least and largest values.
   polyaffine::Matrix coordinates;
   polyaffine::Vector least, largest;
   std::vector<TuningRound> rounds;  ///< the model is that of the last

@@ -326,6 +326,26 @@ Vector FieldEnergy::volume_change(const Vector& c, const Vector& u) const {
   return out;
 }
 
+Matrix FieldEnergy::volume_gradient(const Vector& c) const {
+  Matrix out = Matrix::Zero(pressure_->num_functions, table_.num_unknowns());
+  std::vector<Mat3Pack> S;
+  Matrix rows;
+  for (std::size_t k = 0; k < packed_.size(); ++k) {
+    const PackedBlock& block = packed_[k];
+    S.resize(block.num_packs());
+    block.field(c, true, S.data());
+    for (int pack = 0; pack < block.num_packs(); ++pack)
+      S[pack] = scaled_cofactor(S[pack], block.weight(pack));
+    block_force_rows(block, S.data(), pressure_->blocks[k].values, rows);
+    const auto& pressures = pressure_->blocks[k].functions;
+    for (std::size_t b = 0; b < pressures.size(); ++b)
+      for (std::size_t a = 0; a < block.functions().size(); ++a)
+        out.row(pressures[b]).segment<3>(3 * static_cast<Eigen::Index>(block.functions()[a])) +=
+            rows.row(static_cast<Eigen::Index>(b)).segment<3>(static_cast<Eigen::Index>(3 * a));
+  }
+  return out;
+}
+
 Vector FieldEnergy::pressure_force(const Vector& c, const Vector& p) const {
   Vector out = Vector::Zero(table_.num_unknowns());
   std::vector<Mat3Pack> field;

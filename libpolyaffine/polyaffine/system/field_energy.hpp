@@ -72,6 +72,8 @@ class FieldEnergy {
   Vector penalty_pressure(const Vector& g) const;
   Vector volume_change(const Vector& c, const Vector& u) const;
   Vector pressure_force(const Vector& c, const Vector& p) const;
+  /// D(c) itself, pressures × unknowns, mm².
+  Matrix volume_gradient(const Vector& c) const;
 
  private:
   struct Kinematics;

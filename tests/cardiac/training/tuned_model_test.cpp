@@ -51,7 +51,8 @@ class TunedModels : public ::testing::Test {
     setenv("XDG_CACHE_HOME", folder().c_str(), 1);
     protocol = parse_protocol(kProtocol, "test");
     auto mesh = structured_ellipsoid(land_ellipsoid(), {4, 10, 1});
-    heart = std::make_shared<const Anatomy>(build_anatomy(std::move(mesh.mesh), protocol, {mesh.midpoints, {}}));
+    heart =
+        std::make_shared<const Anatomy>(build_anatomy(std::move(mesh.mesh), protocol, {mesh.midpoints, {}}));
     protocol.heart = heart;
     RunControl control;
     control.on_round = [](const TuningRound& round) { rounds.push_back(round); };
@@ -137,7 +138,11 @@ TEST_F(TunedModels, ModelFileRunsTheSame) {
   ASSERT_TRUE(model);
   const TemporaryFolder files;
   const auto file = files.path / "heart.model";
-  write_heart_model(file, {kProtocol, "test", {}, structure_key(*heart, protocol), heart,
+  write_heart_model(file, {kProtocol,
+                           "test",
+                           {},
+                           structure_key(*heart, protocol),
+                           heart,
                            std::make_shared<const TunedModel>(*model)});
   const HeartModel read = read_heart_model(file);
   Protocol again = parse_protocol(read.protocol, read.source, read.overrides);

@@ -84,6 +84,15 @@ TEST(NestedEnergy, GradientAndTangentMatchFiniteDifferences) {
                   .passed);
 }
 
+TEST(NestedEnergy, VolumeGradientIsThatOfEachPressure) {
+  const Nested nested;
+  const FieldEnergy energy = wall(*nested.basis, *nested.elements);
+  const Vector c = nested.coefficients(0.02, 11), p = random_vector(nested.mesh.num_tets(), 5, 12);
+  const Vector force = energy.pressure_force(c, p);
+  ASSERT_GT(force.norm(), 0);
+  EXPECT_LT((energy.volume_gradient(c).transpose() * p - force).norm(), kRounding * force.norm());
+}
+
 TEST(NestedEnergy, PointsAddUpToTheForce) {
   const Nested nested;
   const FieldEnergy energy = wall(*nested.basis, *nested.elements);
