@@ -16,7 +16,7 @@ namespace {
 constexpr double kVolumeMatters = 3;  // a relative error of the cavity's volume counts so many times
 constexpr double kCavityShare = 0.5;  // of the accuracy of the wall
 // One in so many of the wall's points is a candidate, within bounds.
-constexpr Eigen::Index kThinned = 15, kFewestCandidates = 600, kMostCandidates = 3000;
+constexpr Eigen::Index kThinned = 15, kFewestCandidates = 2000, kMostCandidates = 3000;
 constexpr int kCavityCandidates = 1200;
 
 // About `wanted` of some points, each for the same share of the whole.

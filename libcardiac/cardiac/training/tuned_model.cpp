@@ -71,7 +71,7 @@ class Tuning {
     HeartModes::Options options{kPathShare * accuracy, kNeighbourShare * accuracy, pressure * accuracy,
                                 kMostModes};
     double rule = kRuleShare * accuracy;
-    TunedModel model;
+    TunedModel model, best;
     for (int round = 0;; ++round) {
       build(options, rule, round, model);
       const TuningRound found = hold_against(plan_.held_out(round), model, round);
@@ -79,7 +79,9 @@ class Tuning {
       if (control_.on_round) control_.on_round(found);
       model.reached = found.displacement_percent <= control_.accuracy_percent;
       const double a_round = found.seconds / (round + 1);
-      if (model.reached || found.seconds + a_round > control_.budget_s) return model;
+      if (best.rounds.empty() || found.displacement_percent < best.rounds.back().displacement_percent)
+        best = model;
+      if (model.reached || found.seconds + a_round > control_.budget_s) return best;
       // More modes help only where the space itself is far from the truth.
       if (found.best_percent > 0.3 * found.displacement_percent) {
         options.tolerance *= kRefinement;

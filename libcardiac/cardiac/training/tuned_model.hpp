@@ -42,7 +42,7 @@ struct TunedModel {
   /// metric of ‖∇u‖, and their least and largest values.
   polyaffine::Matrix coordinates;
   polyaffine::Vector least, largest;
-  std::vector<TuningRound> rounds;  ///< the model is that of the last
+  std::vector<TuningRound> rounds;  ///< up to that of the model, the best there was
   bool reached = false;             ///< the accuracy that was asked for
 };
 
