@@ -1,5 +1,6 @@
 #include "cardiac/training/full_order.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include <polyaffine/solve/load_stepping.hpp>
@@ -16,6 +17,14 @@ namespace {
 
 // Far below any error of a reduced model.
 constexpr double kTolerance = 1e-7;
+
+// ∇u by which a linear answer may move a point: beyond it stiff fibres would make wild forces.
+constexpr double kLargestStep = 0.1;
+
+double largest_gradient(const polyaffine::FieldTable& table, const Vector& u) {
+  const Matrix F = polyaffine::evaluate_field(table, u);
+  return (F.colwise() - polyaffine::Mat3::Identity().reshaped()).colwise().norm().maxCoeff();
+}
 
 WallLoad no_load(const Ventricle& ventricle) {
   TrainingLoad none;
@@ -112,7 +121,12 @@ std::vector<FullState> FullOrder::linear_answers(const FullState& state,
     if (discretisation_.fixed[i]) rhs.row(static_cast<Eigen::Index>(i)).setZero();
   const Matrix answers = linear_->solve(rhs);
   for (std::size_t k = 0; k < out.size(); ++k) {
-    const Vector step = answers.col(static_cast<Eigen::Index>(k));
+    const Vector whole = answers.col(static_cast<Eigen::Index>(k));
+    const double share = std::min(1.0, kLargestStep / largest_gradient(v.wall->table(), whole));
+    scene::RegionOverride& region = out[k].load.regions.back();
+    region.tension_factor = 1 + share * (region.tension_factor - 1);
+    region.stiffness_factor = 1 + share * (region.stiffness_factor - 1);
+    const Vector step = share * whole;
     out[k].u = state.u + step;
     if (mixed)
       out[k].pressure = state.pressure + v.wall->penalty_pressure(v.wall->volume_change(state.u, step));

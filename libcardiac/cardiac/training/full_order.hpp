@@ -49,7 +49,8 @@ class FullOrder {
   std::optional<FullState> solve(const TrainingLoad& load, const FullState* near);
 
   /// How the state answers, to first order, to each of some changes of its regions: for each the state moved
-  /// along K⁻¹ ∂f by the whole change, K the tangent of the state. Empty where K is singular.
+  /// along K⁻¹ ∂f, K the tangent of the state, by as much of the change as moves no point far; the load of
+  /// the answer says how much. Empty where K is singular.
   std::vector<FullState> linear_answers(const FullState& state,
                                         const std::vector<scene::RegionOverride>& changes);
 

@@ -115,7 +115,7 @@ bool NestedRuleTraining::add(const FullState& state) {
   for (std::size_t k = 0; k < at.ventricle.cavities.size(); ++k)
     at.ventricle.cavities[k].volume->add_tangent({at.c}, *at.tangent,
                                                  -at.load.pressures_kPa[static_cast<Eigen::Index>(k)]);
-  if (!(at.size > 0) || !at.tangent->factorise()) return false;
+  if (!(at.size > 0) || !at.tangent->factorise() || !at.tangent->positive_definite()) return false;
   add_wall(at, state);
   for (std::size_t k = 0; k < cavities_.size(); ++k) add_cavity(at, k);
   ++states_;

@@ -24,7 +24,7 @@ class NestedRuleTraining {
   NestedRuleTraining(FullOrder& full, const HeartModes& modes, const NestedSpace& space);
 
   /// A state by its full-order displacement and pressures, of which the space holds the nearest. False where
-  /// its tangent is singular, so that it says nothing.
+  /// its tangent is not positive definite: it measures nothing.
   bool add(const FullState& state);
   /// The points with the wanted root mean square error over the states, that of the cavities a half.
   NestedRule select(double accuracy) const;
