@@ -197,7 +197,7 @@ void run(RunOptions options) {
   if (!options.method.empty()) options.overrides.push_back("reduction.method=" + options.method);
   if (options.protocol.empty() == options.model.empty())
     throw polyaffine::InputError(options.model.empty()
-                                     ? "run: found neither PROTOCOL nor --model, expected one of them"
+                                     ? "PROTOCOL is required (or --model HEART.model)"
                                      : "run: found PROTOCOL and --model, expected one of them");
   Protocol protocol = options.model.empty() ? load_input(given_or_example(options.protocol),
                                                          options.overrides, {.insist = options.force})

@@ -243,6 +243,7 @@ Table reduction_table() {
             .range = {0.05, 20},
             .meaning = "largest error of displacement against full order (relative, L2 over the wall) in the "
                        "loads that a tuned model is held against: it learns until they are met",
+            .source = "choice: below what images of a heart resolve",
             .used_with = "preset",
             .used_values = {"tuned"},
             .also = {reduced()}})
@@ -251,6 +252,7 @@ Table reduction_table() {
             .range = above_zero(1e6),
             .meaning = "time that the learning of a tuned model may take; no round begins that would not end "
                        "in it",
+            .source = "choice; measured: a left ventricle of 7366 tets takes 160 s to 1 % (cardiac reduce)",
             .used_with = "preset",
             .used_values = {"tuned"},
             .also = {reduced()}})

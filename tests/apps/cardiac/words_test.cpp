@@ -102,7 +102,7 @@ TEST(Words, UnknownWordsAreNamedWithTheNearest) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"vaildate all", "unknown subcommand vaildate of cardiac; the nearest is validate\n"},
       {"seg", "unknown subcommand seg of cardiac; the nearest is segment\n"},
-      {"dance", "unknown subcommand dance of cardiac; there are run, mesh, segment, "},
+      {"dance", "unknown subcommand dance of cardiac; there are run, reduce, mesh, segment, "},
       {"mesh elipsoid --out x.vtu",
        "unknown subcommand elipsoid of cardiac mesh; the nearest is ellipsoid\n"},
       {"mesh", "a subcommand of cardiac mesh is missing, expected one of ellipsoid, biventricle, import\n"},
