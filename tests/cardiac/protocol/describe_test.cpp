@@ -104,7 +104,7 @@ TEST(KeyTable, DefaultsAreAcceptable) {
 }
 
 TEST(KeyTable, UnitsInNamesAreStated) {
-  const std::regex unit("(_(mm|ms|s|kPa|mmHg|deg|percent|bpm)|_per_(mm|ms|s|mL|mmHg))$");
+  const std::regex unit("(_(mm|ms|kPa|mmHg|deg|percent|bpm)|budget_s|_per_(mm|ms|s|mL|mmHg))$");
   for (const auto& path : cardiac::key_paths()) {
     const auto text = cardiac::explain(path);
     EXPECT_EQ(std::regex_search(path, unit), text.find("\n  unit      ") != std::string::npos &&
