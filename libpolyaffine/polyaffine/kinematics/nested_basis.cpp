@@ -50,7 +50,7 @@ BasisSample NestedBasis::sample(int tet, const Vec4& barycentric) const {
     for (NodalFunctions::InnerIterator entry(functions_, node); entry; ++entry)
       out.functions.push_back(static_cast<int>(entry.col()));
   std::ranges::sort(out.functions);
-  out.functions.erase(std::ranges::unique(out.functions).begin(), out.functions.end());
+  out.functions.erase(std::unique(out.functions.begin(), out.functions.end()), out.functions.end());
   const auto count = static_cast<Eigen::Index>(out.functions.size());
   out.N = Vector::Zero(count);
   out.gradient = Points::Zero(3, count);
