@@ -21,6 +21,8 @@ constexpr double kPathShare = 0.3, kNeighbourShare = 0.8, kRuleShare = 0.4;
 // Pressures want to be fewer than displacements: with modes alone more of them hold the wall back.
 constexpr double kPressureShare = 6, kPressureShareOfFrames = 2;
 constexpr int kMostModes = 75;
+// A rule that is asked for less keeps so few points that what it misses is no longer small.
+constexpr double kLooseRule = 0.004;
 constexpr double kRefinement = 0.6;  // of the tolerances, from round to round
 
 // How different two loads are, in pressure and tension over the largest of the plan.
@@ -70,7 +72,7 @@ class Tuning {
     const double pressure = full_.scene().reduction.affine_frames ? kPressureShareOfFrames : kPressureShare;
     HeartModes::Options options{kPathShare * accuracy, kNeighbourShare * accuracy, pressure * accuracy,
                                 kMostModes};
-    double rule = kRuleShare * accuracy;
+    double rule = std::min(kRuleShare * accuracy, kLooseRule);
     TunedModel model, best;
     for (int round = 0;; ++round) {
       build(options, rule, round, model);
