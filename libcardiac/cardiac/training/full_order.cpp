@@ -19,7 +19,7 @@ namespace {
 constexpr double kTolerance = 1e-7;
 
 // ∇u by which a linear answer may move a point: beyond it stiff fibres would make wild forces.
-constexpr double kLargestStep = 0.1;
+constexpr double kLargestStep = 0.4;
 
 double largest_gradient(const polyaffine::FieldTable& table, const Vector& u) {
   const Matrix F = polyaffine::evaluate_field(table, u);
