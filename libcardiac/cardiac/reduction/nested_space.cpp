@@ -1,8 +1,8 @@
 #include "cardiac/reduction/nested_space.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include <cardiac/reduction/biventricular_frames.hpp>

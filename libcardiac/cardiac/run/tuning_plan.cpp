@@ -139,11 +139,13 @@ TuningPlan tuning_plan(const HeartPath& path, const Ventricle& untrained, const 
     again.steps = states;
     again.beat_start_ms = begin;
     std::mt19937_64 random(static_cast<unsigned>(round) + 1);
+    // Never the same from round to round, since what was held out is learned: multiples of the golden ratio.
+    const double share = std::fmod(0.45 + 0.6180339887 * round, 1.0);
     std::vector<TrainingLoad> loads;
-    for (const HeartState* s : even_instants(again, untrained, 3, round % 2 == 0 ? 0.45 : 0.8))
+    for (const HeartState* s : even_instants(again, untrained, 3, share))
       if (s->pressures_kPa.size() == 0 || s->pressures_kPa.norm() > 0)
         loads.push_back(load_at(at_time(*s), *s, begin));
-    loads.push_back(load_at("end diastole, pressure × 0.7", filled, begin, 0.7 + 0.1 * round));
+    loads.push_back(load_at("end diastole, other pressure", filled, begin, 0.5 + share));
     loads.push_back(random_segments(load_at(kFilled, filled, begin), segments, false, random));
     if (contracts) loads.push_back(random_segments(load_at(kEmptied, key.es, begin), segments, true, random));
     return loads;

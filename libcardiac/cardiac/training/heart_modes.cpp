@@ -161,27 +161,6 @@ Matrix HeartModes::metric(const NestedSpace& space) const {
   return out;
 }
 
-Matrix HeartModes::mass(const NestedSpace& space) const {
-  const Eigen::Index scalar = frame_metric_.rows(), modes = space.modes.cols(), nodes = node_volumes_.size();
-  const Matrix frames =
-      Matrix(space.frames.transpose() * Matrix(node_volumes_.asDiagonal() * Matrix(space.frames)));
-  Matrix weighted = space.modes;
-  for (Eigen::Index node = 0; node < nodes; ++node) weighted.middleRows<3>(3 * node) *= node_volumes_[node];
-  Matrix out = Matrix::Zero(3 * scalar + modes, 3 * scalar + modes);
-  out.bottomRightCorner(modes, modes) = space.modes.transpose() * weighted;
-  for (Eigen::Index k = 0; k < modes; ++k) {
-    const Matrix mixed =
-        (space.frames.transpose() * weighted.col(k).reshaped(3, nodes).transpose()).transpose();
-    out.col(3 * scalar + k).head(3 * scalar) = mixed.reshaped();
-    out.row(3 * scalar + k).head(3 * scalar) = mixed.reshaped().transpose();
-  }
-  for (Eigen::Index a = 0; a < scalar; ++a)
-    for (Eigen::Index b = 0; b < scalar; ++b)
-      for (Eigen::Index i = 0; i < 3; ++i) out(3 * a + i, 3 * b + i) = frames(a, b);
-  for (Eigen::Index k = 3 * scalar + space.num_modes; k < out.rows(); ++k) out(k, k) = 1;
-  return out;
-}
-
 Vector HeartModes::nearest(const NestedSpace& space, const Matrix& metric, const Vector& u) const {
   const Matrix slopes = gradient(u);
   Vector products(metric.rows());

@@ -26,8 +26,6 @@ class HeartModes {
 
   /// Metric of the functions of a space: cᵀ G c = ‖∇u‖², mm³; fixed unknowns have a one on the diagonal.
   polyaffine::Matrix metric(const NestedSpace& space) const;
-  /// The same of the displacement itself, by values at the nodes (size): cᵀ M c = ‖u‖², mm⁵.
-  polyaffine::Matrix mass(const NestedSpace& space) const;
   /// Coefficients of the function of a space nearest to a nodal displacement.
   polyaffine::Vector nearest(const NestedSpace& space, const polyaffine::Matrix& metric,
                              const polyaffine::Vector& u) const;

@@ -31,7 +31,6 @@ class NestedRuleTraining {
   /// The nested model with the points of a rule only.
   Discretisation with(const NestedRule& rule) const;
 
-  const Discretisation& nested() const { return nested_; }  ///< with all full-order points
   const polyaffine::Matrix& metric() const { return metric_; }
 
  private:

@@ -185,6 +185,9 @@ class Tuning {
       out.best_percent = 100 * found->best;
       out.worst = load.name;
     }
+    if (out.worst.empty())
+      throw polyaffine::ComputationError(
+          "tuning: the full-order model has no equilibrium under any of the loads held out");
     out.full_order_solves = full_.solves();
     out.seconds = seconds();
     return out;
@@ -208,7 +211,7 @@ class Tuning {
     const Vector best = basis.nodal(modes_.nearest(model.space, metric_, state->u));
     out.best = modes_.size(best - state->u) / size;
     if (solved && !v.cavities.empty()) {
-      const Vector volumes = full_.ventricle(load).cavity_volumes(state->u);
+      const Vector volumes = plain_.cavity_volumes(state->u);
       out.volume = (v.cavity_volumes(c).cwiseQuotient(volumes).array() - 1).abs().maxCoeff();
     }
     (load.regions.empty() ? path_ : neighbours_).push_back(std::move(*state));
