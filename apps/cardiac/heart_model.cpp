@@ -3,10 +3,22 @@
 #include <fstream>
 #include <sstream>
 
+#include <cardiac/protocol/describe.hpp>
 #include <cardiac/training/tuned_archive.hpp>
+#include <nlohmann/json.hpp>
 #include <polyaffine/core/error.hpp>
 
 namespace cardiac::app {
+namespace {
+
+// The sections that are in the heart and its model, as resolved; full order may be asked of any heart.
+nlohmann::json fixed_sections(const Protocol& protocol) {
+  nlohmann::json all = resolved_json(protocol);
+  all["reduction"].erase("method");
+  return {all["mesh"], all["anatomy"], all["reduction"]};
+}
+
+}  // namespace
 
 Protocol load_model(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   const HeartModel model = read_heart_model(file);
@@ -14,13 +26,14 @@ Protocol load_model(const std::filesystem::path& file, const std::vector<std::st
   all.insert(all.end(), overrides.begin(), overrides.end());
   Protocol out = parse_protocol(model.protocol, model.source, all);
   out.heart = model.heart;
-  if (structure_key(*out.heart, out) != model.structure)
+  const Protocol learned = parse_protocol(model.protocol, model.source, model.overrides);
+  if (fixed_sections(out) != fixed_sections(learned) || structure_key(*out.heart, out) != model.structure)
     throw polyaffine::InputError(file.string() +
-                                 ": found --set that changes mesh, fibres, tissue.law, boundary, reduction "
-                                 "or whether the wall contracts, "
-                                 "expected the values that the model was learned for (loads, contraction, "
-                                 "tissue parameters and regions "
-                                 "may differ)");
+                                 ": found --set that changes mesh, anatomy, reduction, fibres, tissue.law, "
+                                 "boundary or whether the wall "
+                                 "contracts, expected the values that the model was learned for (loads, "
+                                 "contraction, tissue parameters and "
+                                 "regions may differ)");
   TunedModel tuned = *model.tuned;
   complete(*out.heart, out, tuned);
   out.tuned = std::make_shared<const TunedModel>(std::move(tuned));

@@ -5,7 +5,7 @@
 #include <memory>
 #include <sstream>
 
-#include <cardiac/run/tuned_ventricle.hpp>
+#include <cardiac/run/tuned_model.hpp>
 #include <polyaffine/core/error.hpp>
 
 #include "example_data.hpp"

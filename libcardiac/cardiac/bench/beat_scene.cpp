@@ -7,6 +7,7 @@
 #include <cardiac/report/tables.hpp>
 #include <cardiac/run/simulate.hpp>
 #include <cardiac/strain/peaks.hpp>
+#include <cardiac/training/tuned_model.hpp>
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/core/single_thread.hpp>
 
@@ -77,6 +78,7 @@ BenchRow make_row(const BeatContext& context, const Beat& reference, const Beat&
   row.dofs = beat.model().discretisation.num_unknowns;
   row.integration_points = beat.model().wall->table().num_points();
   row.setup_s = beat.setup_s;
+  row.setup_full_order_solves = full_order_solves(beat.model().tuned.get());
   row.solve_s = beat.solve_s;
   row.load_steps = beat.path().time_steps;
   row.newton_iterations = beat.path().newton_iterations;

@@ -7,6 +7,7 @@
 
 #include <cardiac/anatomy/exact_midpoints.hpp>
 #include <cardiac/anatomy/structured_ellipsoid.hpp>
+#include <cardiac/training/tuned_model.hpp>
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/core/single_thread.hpp>
 
@@ -133,6 +134,7 @@ BenchRow make_row(const BenchScene& scene, const std::string& method, const Benc
   row.dofs = model.ventricle().discretisation.num_unknowns;
   row.integration_points = model.ventricle().wall->table().num_points();
   row.setup_s = model.setup_s();
+  row.setup_full_order_solves = full_order_solves(model.ventricle().tuned.get());
   row.solve_s = solution.solve_s;
   row.load_steps = solution.load_steps;
   row.newton_iterations = solution.newton_iterations;

@@ -6,6 +6,7 @@
 #include <cardiac/bench/model.hpp>
 #include <cardiac/protocol/names.hpp>
 #include <cardiac/run/build_ventricle.hpp>
+#include <cardiac/training/tuned_model.hpp>
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/core/single_thread.hpp>
 
@@ -58,6 +59,7 @@ BenchRow make_row(const HeartScene& scene, const HeartModel& model, const Yardst
   row.dofs = model.ventricle.discretisation.num_unknowns;
   row.integration_points = model.ventricle.wall->table().num_points();
   row.setup_s = model.setup_s;
+  row.setup_full_order_solves = full_order_solves(model.ventricle.tuned.get());
   row.solve_s = model.solution.solve_s;
   row.load_steps = model.solution.load_steps;
   row.newton_iterations = model.solution.newton_iterations;

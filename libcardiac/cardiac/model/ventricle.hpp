@@ -43,6 +43,7 @@ struct Ventricle {
   std::vector<StateTerm> states;  ///< terms with unknowns of their own, for systems in time
   std::shared_ptr<const ContractionField> contraction;
   std::shared_ptr<const Ventricle> all_points;  ///< the same without a trained rule; null where there is none
+  std::shared_ptr<const TunedModel> tuned;      ///< that it is made of; null where nothing was learned
   BuildCount built;
 
   int num_coefficients() const { return wall->table().num_unknowns(); }
@@ -69,6 +70,9 @@ Ventricle assemble_ventricle(std::shared_ptr<const Anatomy> anatomy, const Scene
 struct WallLoad {
   polyaffine::Vector pressures_kPa{};
   polyaffine::Vector tension{};
+
+  /// The tension as laws see it; it must outlive that.
+  polyaffine::PointState state() const { return {tension.data(), static_cast<std::size_t>(tension.size())}; }
 };
 
 /// The equation of a wall and what holds it, without loads, at the active tension τ(t): ∂W/∂c(c, ċ, τ) +

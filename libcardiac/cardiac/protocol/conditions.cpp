@@ -21,6 +21,11 @@ Condition reduced() {
           [](const Protocol& p, std::size_t) { return p.reduction.method == Method::polyaffine; }};
 }
 
+Condition untrained() {
+  return {"reduction.preset = fast or accurate",
+          [](const Protocol& p, std::size_t) { return p.reduction.preset != Preset::tuned; }};
+}
+
 Condition separate_volume() {
   return {"a tissue.law other than saint_venant_kirchhoff",
           [](const Protocol& p, std::size_t) { return p.tissue.law != TissueLaw::saint_venant_kirchhoff; }};

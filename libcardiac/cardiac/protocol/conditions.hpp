@@ -14,6 +14,8 @@ Condition beats();
 Condition prescribed();
 /// The model is a reduced one.
 Condition reduced();
+/// Its functions and points are not learned.
+Condition untrained();
 /// The law has a volumetric energy of its own.
 Condition separate_volume();
 /// That is kept by a pressure space, of which a local bulk modulus takes a part.

@@ -153,14 +153,14 @@ Table reduction_table() {
                 "influence of a control node: tents (piecewise linear in ventricular coordinates) or sigmoid "
                 "(of the signed geodesic distance to the border of the node's region)",
             .source = "sigmoid: Desrues, Delingette, Sermesant; tents: measured, cardiac bench",
-            .also = {reduced()}})
+            .also = {reduced(), untrained()}})
       .key("sigmoid_slope", &Reduction::sigmoid_slope,
            {.range = above_zero(20),
             .meaning = "slope a of the sigmoid 1/(1 + exp(a d)), d the normalised signed distance",
             .source = "Desrues, Delingette, Sermesant",
             .used_with = "weights",
             .used_values = {"sigmoid"},
-            .also = {reduced()}})
+            .also = {reduced(), untrained()}})
       .key(
           "enrichment", &Reduction::enrichment,
           {.meaning =
@@ -168,20 +168,20 @@ Table reduction_table() {
                "circumferential and depth coordinates: words of the letters l, c, t such as tt, lt, ctt. The "
                "frame of the cap, whose axes are Cartesian, has all of degree two where there are any",
            .absent = "from preset",
-           .also = {reduced()}})
+           .also = {reduced(), untrained()}})
       .key(
           "border_functions", &Reduction::border_functions,
           {.meaning = "a displacement {1, t, tt} of its own for every border, and every corner, between "
                       "segments whose [[region]] factors differ; with ring_nodes [4, 6, 6] and weights tents",
            .absent = "from preset",
-           .also = {reduced(), some_differ()}})
+           .also = {reduced(), untrained(), some_differ()}})
       .key("pressure_space", &Reduction::pressure_space,
            {.meaning =
                 "functions of the volumetric pressure of each control node: none (every integration point on "
                 "its own), segment {1}, segment_depth {1, t}, segment_linear {1, l, c, t}, "
                 "segment_bilinear {1, l, c, t, lt, ct}",
             .absent = "from preset",
-            .also = {reduced(), separate_volume()}})
+            .also = {reduced(), untrained(), separate_volume()}})
       .key("local_bulk_modulus_kPa", &Reduction::local_bulk_modulus_kPa,
            {.unit = "kPa",
             .range = {0, 1e6},
@@ -192,7 +192,7 @@ Table reduction_table() {
                 "only), and 60 where a [[region]] differs as well, a tenth of tissue.bulk_modulus_kPa at "
                 "most; 60 where the wall is crushed (min_det_F)",
             .source = "measured: two shear moduli of soft muscle (tissue.mu_kPa)",
-            .also = {reduced(), separate_volume(), mixed()}})
+            .also = {reduced(), untrained(), separate_volume(), mixed()}})
       .key("axes", &Reduction::axes,
            {.meaning =
                 "components of the unknowns along heart axes (longitudinal, "
@@ -200,7 +200,7 @@ Table reduction_table() {
                 "Cartesian ones where those turn too fast, as in papillary muscles, with a warning; with "
                 "two ventricles Cartesian axes",
             .source = "measured: of one ventricle heart axes, of two Cartesian ones are nearer to full order",
-            .also = {reduced(), tents()}})
+            .also = {reduced(), untrained(), tents()}})
       .key("ring_nodes", &Reduction::ring_nodes,
            {.range = {3, 60},
             .meaning =
@@ -231,7 +231,7 @@ Table reduction_table() {
                       "points, chosen once for the heart on states of other pressures, tensions and "
                       "stiffnesses, kept in the cache)",
            .source = "measured: cardiac bench",
-           .also = {reduced()}})
+           .also = {reduced(), untrained()}})
       .key("element_order", &Reduction::element_order,
            {.range = {1, 2},
             .meaning = "order of the elements of the full-order model; order 1 locks near incompressibility",

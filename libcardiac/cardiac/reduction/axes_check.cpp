@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include <cardiac/anatomy/right_ventricle.hpp>
+#include <cardiac/scene/presets.hpp>
 
 namespace cardiac {
 
@@ -64,7 +65,7 @@ Found found_on(bool two_ventricles, double misfit_deg) {
 }  // namespace
 
 std::string untrained_warning(const Anatomy& anatomy, const Scene& scene) {
-  if (scene.reduction.preset == scene::Preset::tuned) return "";
+  if (is_tuned(scene)) return "";
   const bool two = anatomy.coordinates->right() != nullptr;
   const double misfit = two ? 0 : radial_misfit_deg(anatomy);
   if (!two && misfit <= kDrawn_deg) return "";

@@ -50,7 +50,7 @@ FrameLayout frame_layout_of(const Anatomy& anatomy, const Scene& scene);
 /// the border of each region (polyaffine::RegionFrames) about the deepest vertex of the region; the latter
 /// are clamped by the factor d = s (2 − s), s = (1 − u)/(1 − u_b), from 0 at the base (u = 1) to 1 at the
 /// last ring u_b. With sigmoid weights the anatomy must outlive the result. Throws InputError when a region
-/// has no interior vertex, or as frame_layout.
+/// has no interior vertex, the preset is tuned (tuned_discretisation), or as frame_layout.
 Discretisation reduced_discretisation(const Anatomy& anatomy, const Scene& scene);
 /// Linear or quadratic finite elements on the whole mesh.
 Discretisation full_discretisation(const Anatomy& anatomy, const Scene& scene);

@@ -10,6 +10,7 @@
 #include <cardiac/reduction/border_frames.hpp>
 #include <cardiac/reduction/nested_space.hpp>
 #include <cardiac/reduction/reduced_points.hpp>
+#include <polyaffine/core/error.hpp>
 #include <polyaffine/geometry/geodesic_regions.hpp>
 #include <polyaffine/kinematics/region_frames.hpp>
 
@@ -144,6 +145,11 @@ FrameLayout frame_layout_of(const Anatomy& anatomy, const Scene& scene) {
 }
 
 Discretisation reduced_discretisation(const Anatomy& anatomy, const Scene& scene) {
+  if (scene.reduction.preset == scene::Preset::tuned)
+    throw polyaffine::InputError(
+        "reduction.preset: found tuned, whose functions are learned in a run or by cardiac reduce, expected "
+        "fast or "
+        "accurate");
   Discretisation out;
   out.layout = frame_layout_of(anatomy, scene);
   out.region = region_tets(anatomy.mesh, *anatomy.coordinates, out.layout);

@@ -6,12 +6,29 @@
 
 #include <cardiac/model/rest_check.hpp>
 #include <cardiac/run/key_states.hpp>
+#include <cardiac/run/tuned_model.hpp>
+#include <cardiac/scene/presets.hpp>
 #include <cardiac/training/trained_rule.hpp>
 #include <polyaffine/core/error.hpp>
 
 namespace cardiac {
 
-Ventricle build_ventricle(std::shared_ptr<const Anatomy> anatomy, const Scene& scene, scene::Method method) {
+namespace {
+
+Ventricle tuned_ventricle(const std::shared_ptr<const Anatomy>& anatomy, const Scene& scene,
+                          const RunControl& control) {
+  const auto model = tuned_model(anatomy, scene, control);
+  Ventricle out = assemble_ventricle(anatomy, scene, tuned_discretisation(*anatomy, scene, *model));
+  check_rest(out, scene);
+  out.tuned = model;
+  return out;
+}
+
+}  // namespace
+
+Ventricle build_ventricle(std::shared_ptr<const Anatomy> anatomy, const Scene& scene, scene::Method method,
+                          const RunControl& control) {
+  if (method == scene::Method::polyaffine && is_tuned(scene)) return tuned_ventricle(anatomy, scene, control);
   Ventricle all = assemble_ventricle(anatomy, scene, discretise(anatomy, scene, method));
   if (method == scene::Method::polyaffine) check_rest(all, scene);
   if (method == scene::Method::fem || scene.reduction.integration != scene::Integration::trained) return all;

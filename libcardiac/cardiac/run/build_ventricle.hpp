@@ -6,7 +6,8 @@ namespace cardiac {
 
 /// Builds what `plan(scene)` says, from a mesh in mm. Throws InputError as the discretisation does,
 /// check_size included.
-Ventricle build_ventricle(std::shared_ptr<const Anatomy> anatomy, const Scene& scene, scene::Method method);
+Ventricle build_ventricle(std::shared_ptr<const Anatomy> anatomy, const Scene& scene, scene::Method method,
+                          const RunControl& control = {});
 
 /// The larger rule_error at end diastole and end systole of a path (without circulation: at its end).
 double rule_error(const Ventricle& ventricle, const Scene& scene, const HeartPath& path);

@@ -8,7 +8,7 @@
 #include <cardiac/run/build_ventricle.hpp>
 #include <cardiac/run/plausibility.hpp>
 #include <cardiac/run/statics.hpp>
-#include <cardiac/run/tuned_ventricle.hpp>
+#include <cardiac/run/tuned_model.hpp>
 #include <cardiac/scene/presets.hpp>
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/core/stopwatch.hpp>
@@ -35,11 +35,6 @@ HeartPath trusted_path(Ventricle& model, const Scene& scene, const RunControl& c
   return path;
 }
 
-bool is_tuned(const Scene& scene) {
-  return scene.reduction.method == scene::Method::polyaffine &&
-         scene.reduction.preset == scene::Preset::tuned;
-}
-
 }  // namespace
 
 Outcome simulate(const Scene& of, const RunControl& control) {
@@ -51,12 +46,7 @@ Outcome simulate(const Scene& of, const RunControl& control) {
   double setup_s = 0, solve_s = 0;
   {
     const polyaffine::Stopwatch watch(setup_s);
-    if (is_tuned(scene)) {
-      scene.tuned = tuned_model(scene.heart, scene, control);
-      out.model = tuned_ventricle(scene.heart, scene, *scene.tuned);
-    } else {
-      out.model = build_ventricle(scene.heart, scene, scene.reduction.method);
-    }
+    out.model = build_ventricle(scene.heart, scene, scene.reduction.method, control);
     out.nodes = segment_nodes(*scene.heart, scene);
   }
   if (control.on_built) control.on_built();
@@ -65,8 +55,8 @@ Outcome simulate(const Scene& of, const RunControl& control) {
     out.path = trusted_path(out.model, scene, control);
   }
   if (control.on_solved) control.on_solved();
-  if (is_tuned(scene))
-    for (std::string& text : tuned_warnings(*scene.tuned, scene, out.path))
+  if (out.model.tuned)
+    for (std::string& text : tuned_warnings(*out.model.tuned, scene, out.path))
       out.path.warnings.push_back(std::move(text));
   out.result = describe_path(out.model, out.nodes, scene, out.path);
   out.result.wall_setup_s = setup_s;

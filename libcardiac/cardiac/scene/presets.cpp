@@ -11,6 +11,10 @@ namespace cardiac {
 
 using namespace scene;
 
+bool is_tuned(const Scene& scene) {
+  return scene.reduction.method == Method::polyaffine && scene.reduction.preset == Preset::tuned;
+}
+
 bool aha_tents(const Reduction& reduction) {
   return reduction.ring_nodes == Reduction().ring_nodes && !reduction.ring_angles_deg &&
          reduction.weights == Weights::tents;

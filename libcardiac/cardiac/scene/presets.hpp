@@ -15,6 +15,9 @@ void fill_presets(Scene& scene, bool heart_wants_cartesian_axes);
 /// further where regions differ.
 void raise_local_bulk_modulus(bool two_ventricles, Scene& scene);
 
+/// Is the model a reduced one that is learned for its heart?
+bool is_tuned(const Scene& scene);
+
 /// Do the frames belong to the AHA segments, with tents as weights?
 bool aha_tents(const scene::Reduction& reduction);
 

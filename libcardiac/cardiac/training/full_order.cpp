@@ -9,7 +9,6 @@
 namespace cardiac {
 
 using polyaffine::Matrix;
-using polyaffine::PointState;
 using polyaffine::System;
 using polyaffine::Vector;
 
@@ -31,10 +30,6 @@ WallLoad no_load(const Ventricle& ventricle) {
   none.pressures_kPa = Vector::Zero(std::ssize(ventricle.cavities));
   none.level = 0;
   return wall_load(ventricle, none);
-}
-
-PointState state_of(const Vector& tension) {
-  return {tension.data(), static_cast<std::size_t>(tension.size())};
 }
 
 // Newton's method in the mixed form from a displacement and the pressures of the elements. A reduced model's
@@ -104,8 +99,7 @@ std::vector<FullState> FullOrder::linear_answers(const FullState& state,
   if (!tangent.factorise({1, state.u}, 0)) return {};
   const bool mixed = v.wall->pressure_space().has_value();
   const auto force = [&](const Ventricle& of, const WallLoad& at) {
-    return of.wall->evaluate({state.u, state_of(at.tension), nullptr, mixed ? &state.pressure : nullptr})
-        .gradient;
+    return of.wall->evaluate({state.u, at.state(), nullptr, mixed ? &state.pressure : nullptr}).gradient;
   };
   const Vector before = force(v, load);
   Matrix rhs(state.u.size(), std::ssize(changes));

@@ -8,7 +8,6 @@ namespace cardiac {
 
 using polyaffine::CubatureTraining;
 using polyaffine::Matrix;
-using polyaffine::PointState;
 using polyaffine::Vector;
 
 namespace {
@@ -38,10 +37,6 @@ KeptPoints candidates_of(const polyaffine::Basis& basis, const std::vector<int>&
   const Vector even =
       Vector::Constant(std::ssize(points), weights.sum() / static_cast<double>(points.size()));
   return in_blocks(basis, tet, barycentric, points, even);
-}
-
-PointState state_of(const Vector& tension) {
-  return {tension.data(), static_cast<std::size_t>(tension.size())};
 }
 
 KeptPoints chosen(const polyaffine::Basis& basis, const std::vector<int>& tet,
@@ -111,7 +106,7 @@ bool NestedRuleTraining::add(const FullState& state) {
   if (mixed) at.pressure = modes_.nearest_pressure(space_, state.pressure);
   at.tangent = polyaffine::dense_system(static_cast<int>(at.c.size()), nested_.fixed);
   at.tangent->set_zero();
-  wall.add_tangent({at.c, state_of(at.load.tension), nullptr, mixed ? &at.pressure : nullptr}, *at.tangent);
+  wall.add_tangent({at.c, at.load.state(), nullptr, mixed ? &at.pressure : nullptr}, *at.tangent);
   for (std::size_t k = 0; k < at.ventricle.cavities.size(); ++k)
     at.ventricle.cavities[k].volume->add_tangent({at.c}, *at.tangent,
                                                  -at.load.pressures_kPa[static_cast<Eigen::Index>(k)]);
@@ -129,9 +124,8 @@ void NestedRuleTraining::add_wall(const Measure& at, const FullState& state) {
   const WallLoad full_load = wall_load(full, state.load);
   const Vector element_pressure = mixed ? Vector(space_.pressures.transpose() * at.pressure) : Vector();
   const auto whole = full.wall->evaluate(
-      {basis_.nodal(at.c), state_of(full_load.tension), nullptr, mixed ? &element_pressure : nullptr});
-  const auto terms =
-      wall.point_terms({at.c, state_of(at.load.tension), nullptr, mixed ? &at.pressure : nullptr});
+      {basis_.nodal(at.c), full_load.state(), nullptr, mixed ? &element_pressure : nullptr});
+  const auto terms = wall.point_terms({at.c, at.load.state(), nullptr, mixed ? &at.pressure : nullptr});
   const Eigen::Index n = terms.gradient.cols();
   Matrix forces(at.c.size(), n + 1);
   forces << terms.gradient, basis_.transpose(whole.gradient);

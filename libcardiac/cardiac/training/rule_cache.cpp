@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include <cardiac/reduction/nested_space.hpp>
 #include <cardiac/training/trained_rule.hpp>
 #include <polyaffine/core/cache.hpp>
 #include <polyaffine/mesh/digest.hpp>
@@ -112,26 +113,19 @@ std::vector<int> kept_starts(const std::vector<int>& starts, const std::vector<i
   return out;
 }
 
-template <class Places>
-void keep(const CompressedRule& rule, Places& places) {
-  std::vector<int> tet;
-  for (const int p : rule.points) tet.push_back(places.tet[p]);
-  places.tet = std::move(tet);
-  places.barycentric = Eigen::Matrix4Xd(places.barycentric(Eigen::all, rule.points));
-  places.weights = Vector(places.weights(rule.points).cwiseProduct(rule.weights));
-  places.starts = kept_starts(places.starts, rule.points);
+KeptPoints which(const CompressedRule& rule, const std::vector<int>& starts, const Vector& weights) {
+  return {rule.points, weights(rule.points).cwiseProduct(rule.weights), kept_starts(starts, rule.points)};
 }
 
 }  // namespace
 
 Discretisation with_rule(const Discretisation& all_points, const TrainedRule& rule) {
   Discretisation out = all_points;
-  keep(rule.wall, out.points);
+  const auto& points = all_points.points;
+  out.points = kept(points, which(rule.wall, points.starts, points.weights));
   if (out.cavities.empty()) return out;
-  auto& surface = out.cavities.front().points;
-  keep(rule.cavity, surface);
-  for (auto* columns : {&surface.X, &surface.X_xi, &surface.X_eta})
-    *columns = polyaffine::Points((*columns)(Eigen::all, rule.cavity.points));
+  const auto& surface = all_points.cavities.front().points;
+  out.cavities.front().points = kept(surface, which(rule.cavity, surface.starts, surface.weights));
   return out;
 }
 

@@ -84,7 +84,7 @@ class Trainer {
       return solve(*linear, joined(forces, forces.rowwise().sum()), v.discretisation.fixed);
     };
 
-    const polyaffine::PointState state(load.tension.data(), static_cast<std::size_t>(load.tension.size()));
+    const polyaffine::PointState state = load.state();
     const bool mixed = v.wall->pressure_space().has_value();
     const Vector pressure = mixed ? v.wall->pressure(c) : Vector();
     const auto terms = v.wall->point_terms({c, state, &rate, mixed ? &pressure : nullptr});

@@ -236,6 +236,10 @@ TunedModel tune(const std::shared_ptr<const Anatomy>& anatomy, const Scene& scen
   return Tuning(anatomy, scene, plan, control).run();
 }
 
+int full_order_solves(const TunedModel* model) {
+  return model ? model->rounds.back().full_order_solves : 0;
+}
+
 double outside(const TunedModel& model, const Vector& c) {
   constexpr double kMargin = 0.1;
   const Vector at = model.coordinates * c;

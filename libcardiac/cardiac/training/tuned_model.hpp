@@ -46,6 +46,9 @@ struct TunedModel {
   bool reached = false;             ///< the accuracy that was asked for
 };
 
+/// Full-order solves that a model was learned from; 0 without one.
+int full_order_solves(const TunedModel* model);
+
 /// How far coefficients lie outside what the model learned from: the distance from the box of its states,
 /// a tenth of its width left around it, over the size of c.
 double outside(const TunedModel& model, const polyaffine::Vector& c);

@@ -1,10 +1,9 @@
-#include "cardiac/run/tuned_ventricle.hpp"
+#include "cardiac/run/tuned_model.hpp"
 
 #include <iomanip>
 #include <sstream>
 #include <utility>
 
-#include <cardiac/model/rest_check.hpp>
 #include <cardiac/reduction/axes_check.hpp>
 #include <cardiac/run/build_ventricle.hpp>
 #include <cardiac/run/key_states.hpp>
@@ -57,13 +56,6 @@ std::shared_ptr<const TunedModel> tuned_model(const std::shared_ptr<const Anatom
   TunedModel out = tune(anatomy, scene, tuning_plan(path, model, scene), tuning);
   if (out.reached) keep_model(*anatomy, scene, out);  // one that did not, a larger budget may better
   return std::make_shared<const TunedModel>(std::move(out));
-}
-
-Ventricle tuned_ventricle(const std::shared_ptr<const Anatomy>& anatomy, const Scene& scene,
-                          const TunedModel& model) {
-  Ventricle out = assemble_ventricle(anatomy, scene, tuned_discretisation(*anatomy, scene, model));
-  check_rest(out, scene);
-  return out;
 }
 
 std::vector<std::string> tuned_warnings(const TunedModel& model, const Scene& scene, const HeartPath& path) {

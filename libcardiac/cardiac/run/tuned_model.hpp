@@ -11,10 +11,6 @@ namespace cardiac {
 std::shared_ptr<const TunedModel> tuned_model(const std::shared_ptr<const Anatomy>& anatomy,
                                               const Scene& scene, const RunControl& control = {});
 
-/// A ventricle of that model.
-Ventricle tuned_ventricle(const std::shared_ptr<const Anatomy>& anatomy, const Scene& scene,
-                          const TunedModel& model);
-
 /// What there is to say of a path by a tuned model: an accuracy that its training did not reach, states
 /// outside of what it learned from. Empty where all is well.
 std::vector<std::string> tuned_warnings(const TunedModel& model, const Scene& scene, const HeartPath& path);
