@@ -5,10 +5,6 @@
 namespace cardiac::protocol {
 namespace {
 
-Range above_zero(double high) {
-  return {0, high, true};
-}
-
 // Values that together give the beat of a healthy heart.
 const char* const kHealthy = "chosen with the others for the normal values of a healthy beat";
 

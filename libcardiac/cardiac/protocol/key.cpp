@@ -60,8 +60,9 @@ std::string type_text(const Key& key) {
 
 const std::vector<Table>& tables() {
   static const std::vector<Table> all = [] {
-    std::vector<Table> list = model_tables();
-    for (auto& table : beat_tables()) list.push_back(std::move(table));
+    std::vector<Table> list = heart_tables();
+    for (auto* more : {&model_tables, &beat_tables})
+      for (auto& table : more()) list.push_back(std::move(table));
     return list;
   }();
   return all;

@@ -24,6 +24,10 @@ struct Range {
   double high = std::numeric_limits<double>::infinity();
   bool without_low = false;  ///< low itself is not allowed
 };
+/// Above zero, at most `high`.
+inline Range above_zero(double high) {
+  return {0, high, true};
+}
 
 /// A circumstance without which a key plays no part, in words and as a test of a protocol (and, in a list of
 /// tables, of the entry).
@@ -70,7 +74,8 @@ struct Table {
 /// All tables in the order of the protocol file.
 const std::vector<Table>& tables();
 
-/// The two halves of it: what the heart is, what it does.
+/// The parts of it: the heart, its model, what it does.
+std::vector<Table> heart_tables();
 std::vector<Table> model_tables();
 std::vector<Table> beat_tables();
 
