@@ -157,6 +157,11 @@ void fill_speedups(std::vector<BenchRow>& rows) {
       }
 }
 
+std::string reference_text(const BenchRow& row) {
+  return row.method + " on " + std::to_string(row.mesh_tets) + " tets, " + std::to_string(row.dofs) +
+         " unknowns";
+}
+
 SceneResult run_scene(const BenchScene& scene, const BenchContext& context) {
   const polyaffine::SingleThread single_thread;
   const Plan plan = make_plan(scene, context.quick);
@@ -191,9 +196,7 @@ SceneResult run_scene(const BenchScene& scene, const BenchContext& context) {
     if (!reference) reference = std::move(model);
   }
   fill_speedups(result.rows);
-  const BenchRow& first = result.rows.front();
-  result.reference = first.method + " on " + std::to_string(first.mesh_tets) + " tets, " +
-                     std::to_string(first.dofs) + " unknowns";
+  result.reference = reference_text(result.rows.front());
   return result;
 }
 

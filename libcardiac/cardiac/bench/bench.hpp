@@ -43,6 +43,9 @@ struct BenchRow {
 /// The times of quadratic elements over those of the models on the same tets, and what follows from them.
 void fill_speedups(std::vector<BenchRow>& rows);
 
+/// The model that the others are compared with, in words.
+std::string reference_text(const BenchRow& row);
+
 /// All rows of a scene and the solution they are compared with.
 struct SceneResult {
   std::string scene, title, reference;

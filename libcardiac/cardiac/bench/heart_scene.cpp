@@ -135,9 +135,7 @@ std::optional<SceneResult> run_heart_scene(const HeartScene& scene, const HeartS
     if (const auto reduced = source.input(scene.heart, settings)) add(solve(scene, *reduced), told);
   }
   fill_speedups(out.rows);
-  const BenchRow& first = out.rows.front();
-  out.reference = first.method + " on " + std::to_string(first.mesh_tets) + " tets, " +
-                  std::to_string(first.dofs) + " unknowns";
+  out.reference = reference_text(out.rows.front());
   return out;
 }
 

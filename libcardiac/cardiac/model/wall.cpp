@@ -124,15 +124,14 @@ std::shared_ptr<const polyaffine::FieldEnergy> build_wall(const Anatomy& anatomy
 
   std::optional<polyaffine::PressureSpace> pressure;
   if (tissue.law != scene::TissueLaw::saint_venant_kirchhoff) {
-    if (discretisation.frame_basis && !discretisation.element_pressures &&
-        *scene.reduction.pressure_space == scene::PressureSpace::none)
+    if (discretisation.blends_frames() && *scene.reduction.pressure_space == scene::PressureSpace::none)
       laws.push_back(std::make_shared<polyaffine::QuadraticVolumetric>(tissue.bulk_modulus_kPa));
     else
       pressure = pressure_space(discretisation, table, scene);
     // What few pressures do not see, local changes of volume, a small part of the bulk modulus keeps in
     // check; less where the wall is softer, which that part would hold back.
     if (const double local = scene.reduction.local_bulk_modulus_kPa;
-        pressure && discretisation.frame_basis && !discretisation.element_pressures && local > 0) {
+        pressure && discretisation.blends_frames() && local > 0) {
       auto factor = apical_factor(anatomy, discretisation, tissue.bulk_modulus_kPa / local);
       for (std::size_t q = 0; q < factors.stiffness.size(); ++q)
         factor[q] *= std::min(1.0, factors.stiffness[q]);

@@ -128,7 +128,7 @@ Table reduction_table() {
             .range = above_zero(1e6),
             .meaning = "time that the learning of a tuned model may take; no round begins that would not end "
                        "in it",
-            .source = "choice; measured: a left ventricle of 7366 tets takes 160 s to 1 % (cardiac reduce)",
+            .source = "choice; measured: a left ventricle of 7366 tets takes 190 s to 1 % (cardiac reduce)",
             .used_with = "preset",
             .used_values = {"tuned"},
             .also = {reduced()}})

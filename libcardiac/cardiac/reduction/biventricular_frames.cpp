@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <cardiac/anatomy/segments.hpp>
 
@@ -160,6 +161,13 @@ SegmentFrames::PointCell BiventricularFrames::point_cell(int tet, const Vec4& ba
   const int right_cells = kSectors * static_cast<int>(rows_.size());
   return {num_cells() + right_cells * (1 + left.index) + own.number,
           {left.place[0], share_of_right, right.t}};
+}
+
+std::shared_ptr<const SegmentFrames> tent_frames(std::shared_ptr<const VentricularCoordinates> coordinates,
+                                                 const FrameLayout& layout, bool base_frames) {
+  if (coordinates->right())
+    return std::make_shared<BiventricularFrames>(std::move(coordinates), layout, base_frames);
+  return std::make_shared<SegmentFrames>(std::move(coordinates), layout, base_frames);
 }
 
 }  // namespace cardiac

@@ -64,4 +64,8 @@ class BiventricularFrames : public SegmentFrames {
   polyaffine::Vec3 apex_ = polyaffine::Vec3::Zero();
 };
 
+/// The frames of one ventricle or of both, as the coordinates are.
+std::shared_ptr<const SegmentFrames> tent_frames(std::shared_ptr<const VentricularCoordinates> coordinates,
+                                                 const FrameLayout& layout, bool base_frames);
+
 }  // namespace cardiac

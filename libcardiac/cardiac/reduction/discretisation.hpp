@@ -40,6 +40,10 @@ struct Discretisation {
   std::vector<char> fixed;                      ///< unknowns held at zero
   int num_unknowns = 0;                         ///< that are not fixed
   bool sparse = false;
+
+  /// Do blends of frames make it, whose pressures and local volumes are chosen? A nested model has those of
+  /// the elements.
+  bool blends_frames() const { return frame_basis && !element_pressures; }
 };
 
 /// Where the control frames of a scene's reduction sit. Throws InputError as frame_layout.

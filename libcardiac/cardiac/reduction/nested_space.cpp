@@ -15,12 +15,6 @@ using polyaffine::Vector;
 
 namespace {
 
-std::shared_ptr<const SegmentFrames> tents(const Anatomy& anatomy, const FrameLayout& layout) {
-  if (anatomy.coordinates->right())
-    return std::make_shared<BiventricularFrames>(anatomy.coordinates, layout, true);
-  return std::make_shared<SegmentFrames>(anatomy.coordinates, layout, true);
-}
-
 // Columns that are no combination of those before them, by elimination: what is left of a column must be more
 // than this share of it.
 constexpr double kIndependent = 1e-8;
@@ -61,7 +55,7 @@ polyaffine::NodalFunctions at_nodes(const Anatomy& anatomy, const polyaffine::Fr
 
 NestedSpace affine_space(const Anatomy& anatomy, const Scene& scene) {
   const FrameLayout layout = frame_layout_of(anatomy, scene);
-  const auto field = tents(anatomy, layout);
+  const auto field = tent_frames(anatomy.coordinates, layout, true);
   const Eigen::Index nodes = anatomy.coordinates->space().num_functions();
   std::vector<polyaffine::FrameFunctions> functions(field->num_frames());
   NestedSpace out;

@@ -61,13 +61,6 @@ std::vector<Monomial> of_cap(const std::vector<Monomial>& functions) {
   return out;
 }
 
-std::shared_ptr<const SegmentFrames> tent_frames(const Anatomy& anatomy, const FrameLayout& layout,
-                                                 bool base_frames) {
-  if (anatomy.coordinates->right())
-    return std::make_shared<BiventricularFrames>(anatomy.coordinates, layout, base_frames);
-  return std::make_shared<SegmentFrames>(anatomy.coordinates, layout, base_frames);
-}
-
 // The functions of every frame and the axes of their coefficients: with heart_axes longitudinal,
 // circumferential and radial, but Cartesian in the cap and in the right free wall. Those of the frames at the
 // base have a factor l, so that they vanish on the base and hold it.
@@ -90,8 +83,8 @@ std::vector<FrameFunctions> tent_functions(const SegmentFrames& frames, const st
 // Tent weights. Pressures do without the frames at the base, where nothing holds them; border functions are
 // further frames with functions of the depth alone, in the same axes.
 void add_tent_basis(const Anatomy& anatomy, const Scene& scene, Discretisation& out) {
-  out.frames = tent_frames(anatomy, out.layout, true);
-  out.pressure_frames = tent_frames(anatomy, out.layout, false);
+  out.frames = tent_frames(anatomy.coordinates, out.layout, true);
+  out.pressure_frames = tent_frames(anatomy.coordinates, out.layout, false);
   std::vector<std::string> told_with_the_result;
   const bool heart_axes = axes_of(anatomy, scene, told_with_the_result) == scene::Axes::heart;
   auto functions = tent_functions(*out.frames, monomials(scene), heart_axes);
