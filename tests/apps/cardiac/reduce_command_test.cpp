@@ -38,7 +38,8 @@ TEST(ReduceCommand, WritesAModelThatRunsAlone) {
   EXPECT_EQ(other.status, 2);
   EXPECT_THAT(other.err, HasSubstr("learned for"));
   for (const std::string key : {"'anatomy.anterior_direction=[1,0,0]'", "reduction.preset=fast"})
-    EXPECT_EQ(run_program("run --model " + model + " --set " + key + " --out " + out.string()).status, 2) << key;
+    EXPECT_EQ(run_program("run --model " + model + " --set " + key + " --out " + out.string()).status, 2)
+        << key;
 }
 
 TEST(ReduceCommand, RefusesWrongInput) {
