@@ -130,6 +130,12 @@ void print_result(const BeatResult& result, double verification_s, const std::fi
     std::cout << "strain at end systole: GLS " << result.strain.gls_percent << " %, GCS "
               << result.strain.gcs_percent << " %, GRS " << result.strain.grs_percent << " %, twist "
               << result.strain.twist_deg << " deg\n";
+  if (!result.estimated_errors.empty()) {
+    std::cout << "error by the model's own estimate:" << std::setprecision(2);
+    for (const EstimatedError& e : result.estimated_errors)
+      std::cout << ' ' << e.instant << ' ' << e.displacement_percent << " %";
+    std::cout << " of displacement\n" << std::setprecision(1);
+  }
   for (const VerificationInstant& v : result.verification)
     std::cout << "against full order at " << v.instant << ": displacement " << v.displacement_error_percent
               << " %, volume " << v.volume_error_percent << " %, segment strain " << std::setprecision(3)
@@ -230,8 +236,9 @@ void run(RunOptions options) {
       if (options.quiet) return;
       std::cout << "tuning: " << round.full_order_solves << " full-order solves, " << round.unknowns
                 << " unknowns, " << round.points << " points, " << std::fixed << std::setprecision(1)
-                << round.seconds << " s: " << std::setprecision(2) << round.displacement_percent
-                << " % off in the worst load held out (" << round.worst << ")" << std::endl;
+                << round.seconds << " s: " << std::setprecision(2) << round.protocol.displacement_percent
+                << " % off in the worst load held out, " << round.segments.displacement_percent
+                << " % with other segments" << std::endl;
     };
     control.on_built = [&] {
       setup_s = seconds_since(start);

@@ -131,6 +131,12 @@ struct PlanItem {
 /// The reduced state against the full-order solution at one instant: relative L2 error of the displacement,
 /// signed error of the cavity volume, both in percent, and the largest difference of a segment's normal
 /// strain.
+/// What a tuned model tells of its own error at an instant (estimated_error).
+struct EstimatedError {
+  std::string instant;              ///< "ED" or "ES"
+  double displacement_percent = 0;  ///< L2 over the wall
+};
+
 struct VerificationInstant {
   std::string instant;  ///< "ED" or "ES"
   double time_ms = 0;
@@ -157,6 +163,7 @@ struct BeatResult {
   GlobalStrain strain;                       ///< of the left ventricle at end systole
   std::optional<GlobalStrain> right_strain;  ///< of the right free wall at the same time
   double min_det_F = 1, max_det_F = 1;
+  std::vector<EstimatedError> estimated_errors;  ///< of a tuned model
   std::vector<VerificationInstant> verification;
   std::vector<PlanItem> plan;
   std::vector<std::string> warnings;

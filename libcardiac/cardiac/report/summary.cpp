@@ -88,7 +88,8 @@ Json protocol_of(const RunInfo& info) {
 }
 
 Json lists_of(const BeatResult& r) {
-  Json verification = Json::array(), plan = Json::array(), segments = Json::array();
+  Json verification = Json::array(), estimates = Json::array(), plan = Json::array(),
+       segments = Json::array();
   for (const VerificationInstant& v : r.verification) {
     verification.push_back({{"instant", v.instant},
                             {"time_ms", number(v.time_ms)},
@@ -97,6 +98,9 @@ Json lists_of(const BeatResult& r) {
                             {"max_segment_strain_error", number(v.max_segment_strain_error)},
                             {"wall_time_s", number(v.wall_time_s)}});
   }
+  for (const EstimatedError& e : r.estimated_errors)
+    estimates.push_back(
+        {{"instant", e.instant}, {"displacement_error_percent", number(e.displacement_percent)}});
   for (const PlanItem& item : r.plan)
     plan.push_back({{"part", item.part}, {"built", item.built}, {"why", item.why}});
   for (const SegmentInfo& s : r.segments) {
@@ -105,7 +109,11 @@ Json lists_of(const BeatResult& r) {
                         {"volume_mL", number(s.volume_mL)},
                         {"activation_ms", s.activation_ms ? number(*s.activation_ms) : Json(nullptr)}});
   }
-  return {{"verification", verification}, {"segments", segments}, {"plan", plan}, {"warnings", r.warnings}};
+  return {{"estimated_errors", estimates},
+          {"verification", verification},
+          {"segments", segments},
+          {"plan", plan},
+          {"warnings", r.warnings}};
 }
 
 }  // namespace

@@ -146,6 +146,11 @@ void read_global(const Reader& reader, GlobalStrain& strain) {
 }
 
 void read_lists(const Reader& reader, BeatResult& r) {
+  for (const Reader& json : reader.at("estimated_errors").items()) {
+    EstimatedError& e = r.estimated_errors.emplace_back();
+    json.at("instant") >> e.instant;
+    json.at("displacement_error_percent") >> e.displacement_percent;
+  }
   for (const Reader& json : reader.at("verification").items()) {
     VerificationInstant& v = r.verification.emplace_back();
     json.at("instant") >> v.instant;

@@ -55,10 +55,14 @@ Outcome simulate(const Scene& of, const RunControl& control) {
     out.path = trusted_path(out.model, scene, control);
   }
   if (control.on_solved) control.on_solved();
-  if (out.model.tuned)
-    for (std::string& text : tuned_warnings(*out.model.tuned, scene, out.path))
+  std::vector<EstimatedError> errors;
+  if (out.model.tuned) {
+    errors = estimated_errors(out.model, scene, out.path);
+    for (std::string& text : tuned_warnings(*out.model.tuned, scene, errors))
       out.path.warnings.push_back(std::move(text));
+  }
   out.result = describe_path(out.model, out.nodes, scene, out.path);
+  out.result.estimated_errors = std::move(errors);
   out.result.wall_setup_s = setup_s;
   out.result.wall_solve_s = solve_s;
   refuse_absurdities(out.result, control.keep_absurd);

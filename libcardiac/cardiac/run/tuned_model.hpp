@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cardiac/core/beat_result.hpp>
 #include <cardiac/run/beat.hpp>
 #include <cardiac/training/tuned_model.hpp>
 
@@ -11,8 +12,14 @@ namespace cardiac {
 std::shared_ptr<const TunedModel> tuned_model(const std::shared_ptr<const Anatomy>& anatomy,
                                               const Scene& scene, const RunControl& control = {});
 
+/// The errors of displacement that a tuned model estimates of itself at end diastole and end systole
+/// (estimated_error). Empty without a path, or where its training found no stable state.
+std::vector<EstimatedError> estimated_errors(const Ventricle& model, const Scene& scene,
+                                             const HeartPath& path);
+
 /// What there is to say of a path by a tuned model: an accuracy that its training did not reach, states
-/// outside of what it learned from. Empty where all is well.
-std::vector<std::string> tuned_warnings(const TunedModel& model, const Scene& scene, const HeartPath& path);
+/// estimated to be further off than it was held to. Empty where all is well.
+std::vector<std::string> tuned_warnings(const TunedModel& model, const Scene& scene,
+                                        const std::vector<EstimatedError>& errors);
 
 }  // namespace cardiac

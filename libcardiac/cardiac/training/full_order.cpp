@@ -75,18 +75,31 @@ Ventricle FullOrder::ventricle(const TrainingLoad& load) const {
   return assemble_ventricle(anatomy_, with_regions(scene_, load), discretisation_);
 }
 
-std::optional<FullState> FullOrder::solve(const TrainingLoad& load, const FullState* near) {
+bool FullOrder::step_to(const System& system, Vector& u) {
+  polyaffine::LoadOptions options;
+  options.newton.tolerance = options.newton.defect_tolerance = kTolerance;
+  options.newton.contraction = 0.3;
+  return polyaffine::load_stepping(system, *linear_, u, options).converged();
+}
+
+std::optional<FullState> FullOrder::solve(const TrainingLoad& load, const FullState* guess) {
   ++solves_;
   const Ventricle v = ventricle(load);
   const System system = loaded_ventricle(v, wall_load(v, load));
   FullState out{load, {}, {}};
-  if (near && newton_from(*near, system, *linear_, out.u, out.pressure)) return out;
+  if (guess && newton_from(*guess, system, *linear_, out.u, out.pressure)) return out;
   out.u = Vector::Zero(v.num_coefficients());
-  polyaffine::LoadOptions options;
-  options.newton.tolerance = options.newton.defect_tolerance = kTolerance;
-  options.newton.contraction = 0.3;
-  if (!polyaffine::load_stepping(system, *linear_, out.u, options).converged()) return std::nullopt;
+  if (!step_to(system, out.u)) return std::nullopt;
   if (v.wall->pressure_space()) out.pressure = v.wall->pressure(out.u);
+  return out;
+}
+
+std::optional<FullState> FullOrder::follow(const TrainingLoad& load, const FullState& from) {
+  FullState out{load, from.u, {}};
+  const System between = loaded_ventricle(plain_, wall_load(plain_, from.load), wall_load(plain_, load));
+  if (!step_to(between, out.u)) return solve(load, nullptr);
+  ++solves_;
+  if (plain_.wall->pressure_space()) out.pressure = plain_.wall->pressure(out.u);
   return out;
 }
 

@@ -49,19 +49,33 @@ Matrix flattened(const Matrix& gradients) {
 
 }  // namespace
 
+Vector node_volumes(const LagrangeBasis& elements) {
+  const polyaffine::WallPoints points = elements.wall_points(1);
+  Vector out = Vector::Zero(elements.num_functions());
+  for (std::size_t q = 0; q < points.tet.size(); ++q) {
+    const auto nodes = elements.elements().col(points.tet[q]);
+    for (const int node : nodes)
+      out[node] += points.weights[static_cast<Eigen::Index>(q)] / static_cast<double>(nodes.size());
+  }
+  return out;
+}
+
+double displacement_size(const Vector& node_volumes, const Vector& u) {
+  return std::sqrt(node_volumes.dot(Vector(u.reshaped(3, node_volumes.size()).colwise().squaredNorm())));
+}
+
 HeartModes::HeartModes(const Anatomy& anatomy, const Scene& scene) : affine_(affine_space(anatomy, scene)) {
   const LagrangeBasis& elements = anatomy.coordinates->space();
   const polyaffine::WallPoints points = elements.wall_points(kExact);
   std::vector<Eigen::Triplet<double>> entries;
   tet_volumes_ = Vector::Zero(anatomy.mesh.num_tets());
-  node_volumes_ = Vector::Zero(elements.num_functions());
+  node_volumes_ = node_volumes(elements);
   for (std::size_t q = 0; q < points.tet.size(); ++q) {
     const auto column = static_cast<Eigen::Index>(q);
     const auto at = elements.element_sample(points.tet[q], points.barycentric.col(column));
     const double weight = points.weights[column];
     tet_volumes_[points.tet[q]] += weight;
     for (Eigen::Index i = 0; i < at.functions.size(); ++i) {
-      node_volumes_[at.functions[i]] += weight / static_cast<double>(at.functions.size());
       for (int J = 0; J < 3; ++J)
         entries.emplace_back(3 * column + J, at.functions[i], std::sqrt(weight) * at.gradient(J, i));
     }
@@ -76,70 +90,53 @@ Matrix HeartModes::gradient(const Vector& u) const {
   return nabla_ * u.reshaped(3, nabla_.cols()).transpose();
 }
 
-NestedSpace HeartModes::space(const std::vector<FullState>& path, const std::vector<FullState>& neighbours,
-                              const Options& options) const {
-  std::vector<const FullState*> states;
-  for (const auto* list : {&path, &neighbours})
-    for (const FullState& s : *list) states.push_back(&s);
-  const auto count = static_cast<Eigen::Index>(states.size()), first = std::ssize(path);
-  const Eigen::Index nodes = nabla_.cols();
-  const bool with_frames = frame_metric_.size() > 0;
-  const Eigen::LDLT<Matrix> frames(with_frames ? frame_metric_ : Matrix::Identity(1, 1));
-
-  // What the frames leave of each state over its norm: nodal values and gradients.
-  Matrix rests(3 * nodes, count), slopes(3 * nabla_.rows(), count);
+NestedSpace HeartModes::with_modes(NestedSpace space, const States& states, double tolerance,
+                                   int most) const {
+  const Matrix metric = this->metric(space);
+  const auto count = std::ssize(states);
+  Matrix rests(3 * nabla_.cols(), count), slopes(3 * nabla_.rows(), count);
   for (Eigen::Index s = 0; s < count; ++s) {
     const Vector& u = states[static_cast<std::size_t>(s)]->u;
-    const Matrix own = gradient(u);
-    const double norm = own.norm();
-    if (!with_frames) {
-      rests.col(s) = u / norm;
-      slopes.col(s) = flattened(own) / norm;
-      continue;
-    }
-    const Matrix c = frames.solve(frame_gradients_.transpose() * own);
-    rests.col(s) = (u.reshaped(3, nodes) - (affine_.frames * c).transpose()).reshaped() / norm;
-    slopes.col(s) = flattened(own - frame_gradients_ * c) / norm;
+    const double norm = gradient(u).norm();
+    rests.col(s) = (u - nodal(space, nearest(space, metric, u))) / norm;
+    slopes.col(s) = flattened(gradient(rests.col(s)));
   }
-  const auto modes_of = [&](Eigen::Index from, Eigen::Index number, double tolerance, Eigen::Index most) {
-    const auto own = slopes.middleCols(from, number);
-    const SingularVectors vectors = singular_vectors(own.transpose() * own);
-    const Eigen::Index keep = std::min(needed(vectors, tolerance), most);
-    return Matrix(vectors.combinations.leftCols(keep));
-  };
-  const Matrix of_path = modes_of(0, first, options.tolerance, options.most);
-  Matrix modes = rests.leftCols(first) * of_path;
-  if (first < count) {
-    const Matrix mode_slopes = slopes.leftCols(first) * of_path;
-    const Matrix along = mode_slopes.transpose() * slopes.rightCols(count - first);
-    slopes.rightCols(count - first) -= mode_slopes * along;
-    rests.rightCols(count - first) -= modes * along;
-    const Matrix more =
-        modes_of(first, count - first, options.neighbour_tolerance, options.most - of_path.cols());
-    Matrix all(3 * nodes, modes.cols() + more.cols());
-    all << modes, rests.rightCols(count - first) * more;
-    modes = std::move(all);
-  }
+  const SingularVectors vectors = singular_vectors(slopes.transpose() * slopes);
+  const Eigen::Index before = space.num_modes,
+                     more = std::clamp<Eigen::Index>(most - before, 0, needed(vectors, tolerance));
+  Matrix modes = Matrix::Zero(rests.rows(), (before + more + 2) / 3 * 3);
+  modes.leftCols(before) = space.modes.leftCols(before);
+  modes.middleCols(before, more) = rests * vectors.combinations.leftCols(more);
+  for (Eigen::Index k = before; k < before + more; ++k)  // a coefficient is the largest displacement, mm
+    modes.col(k) /= modes.col(k).cwiseAbs().maxCoeff();
+  space.modes = modes.cast<float>().cast<double>();  // as files have them
+  space.num_modes = static_cast<int>(before + more);
+  return space;
+}
 
-  NestedSpace out = affine_;
-  out.num_modes = static_cast<int>(modes.cols());
-  out.modes = Matrix::Zero(3 * nodes, (modes.cols() + 2) / 3 * 3);
-  for (Eigen::Index k = 0; k < modes.cols(); ++k)  // a coefficient is the largest displacement, mm
-    out.modes.col(k) = modes.col(k) / modes.col(k).cwiseAbs().maxCoeff();
-
-  Matrix pressures(tet_volumes_.size(), count);
-  for (Eigen::Index s = 0; s < count; ++s) {
+NestedSpace HeartModes::with_pressures(NestedSpace space, const States& states, double tolerance,
+                                       int most) const {
+  Matrix rests(tet_volumes_.size(), std::ssize(states));
+  for (Eigen::Index s = 0; s < rests.cols(); ++s) {
     const Vector& p = states[static_cast<std::size_t>(s)]->pressure;
-    if (p.size() == 0) return out;
-    const Vector rest = p - affine_.pressures.transpose() * nearest_pressure(affine_, p);
-    pressures.col(s) = rest / std::sqrt(p.dot(tet_volumes_.cwiseProduct(p)));
+    if (p.size() == 0) return space;
+    rests.col(s) = (p - space.pressures.transpose() * nearest_pressure(space, p)) /
+                   std::sqrt(p.dot(tet_volumes_.cwiseProduct(p)));
   }
-  const SingularVectors vectors =
-      singular_vectors(pressures.transpose() * tet_volumes_.asDiagonal() * pressures);
-  const Eigen::Index keep = std::min<Eigen::Index>(needed(vectors, options.pressure_tolerance), options.most);
-  out.pressures.conservativeResize(affine_.pressures.rows() + keep, Eigen::NoChange);
-  out.pressures.bottomRows(keep) =
-      std::sqrt(tet_volumes_.sum()) * (pressures * vectors.combinations.leftCols(keep)).transpose();
+  const SingularVectors vectors = singular_vectors(rests.transpose() * tet_volumes_.asDiagonal() * rests);
+  const Eigen::Index before = space.pressures.rows(),
+                     more = std::clamp<Eigen::Index>(most - before, 0, needed(vectors, tolerance));
+  space.pressures.conservativeResize(before + more, Eigen::NoChange);
+  space.pressures.bottomRows(more) =
+      std::sqrt(tet_volumes_.sum()) * (rests * vectors.combinations.leftCols(more)).transpose();
+  space.pressures = space.pressures.cast<float>().cast<double>().eval();
+  return space;
+}
+
+Vector HeartModes::nodal(const NestedSpace& space, const Vector& c) const {
+  const Eigen::Index frames = 3 * frame_metric_.rows();
+  Vector out = space.modes * c.tail(space.modes.cols());
+  out += (affine_.frames * c.head(frames).reshaped(3, frames / 3).transpose()).transpose().reshaped();
   return out;
 }
 
@@ -173,10 +170,6 @@ Vector HeartModes::nearest(const NestedSpace& space, const Matrix& metric, const
 Vector HeartModes::nearest_pressure(const NestedSpace& space, const Vector& pressure) const {
   const Matrix mass = space.pressures * tet_volumes_.asDiagonal() * space.pressures.transpose();
   return mass.llt().solve(space.pressures * tet_volumes_.cwiseProduct(pressure));
-}
-
-double HeartModes::size(const Vector& u) const {
-  return std::sqrt(node_volumes_.dot(Vector(u.reshaped(3, node_volumes_.size()).colwise().squaredNorm())));
 }
 
 }  // namespace cardiac

@@ -54,12 +54,33 @@ KeptPoints chosen(const polyaffine::Basis& basis, const std::vector<int>& tet,
 
 }  // namespace
 
+NestedRule candidate_rule(const Discretisation& nested) {
+  NestedRule out;
+  const auto& points = nested.points;
+  out.wall = candidates_of(*nested.basis, points.tet, points.barycentric, points.weights,
+                           static_cast<int>(std::clamp<Eigen::Index>(points.weights.size() / kThinned,
+                                                                     kFewestCandidates, kMostCandidates)));
+  for (const CavitySurface& cavity : nested.cavities)
+    out.cavities.push_back(candidates_of(*nested.basis, cavity.points.tet, cavity.points.barycentric,
+                                         cavity.points.weights, kCavityCandidates));
+  return out;
+}
+
+Discretisation with_rule(const Discretisation& nested, const NestedRule& rule) {
+  Discretisation out = nested;
+  out.points = kept(nested.points, rule.wall);
+  for (std::size_t k = 0; k < rule.cavities.size(); ++k)
+    out.cavities[k].points = kept(nested.cavities[k].points, rule.cavities[k]);
+  return out;
+}
+
 struct NestedRuleTraining::Measure {
   Ventricle ventricle;  // on the candidates
   Vector c, pressure;
   WallLoad load;
   std::unique_ptr<polyaffine::LinearSystem> tangent;
-  double size = 0;  // ‖c‖_G
+  double weight = 1;
+  double size = 0;  // ‖c‖_G over the weight
 
   // root K⁻¹ of forces that add up to the last column.
   Matrix displaced(Matrix forces, const std::vector<char>& fixed, const Matrix& root) const {
@@ -74,33 +95,25 @@ NestedRuleTraining::NestedRuleTraining(FullOrder& full, const HeartModes& modes,
       modes_(modes),
       space_(space),
       nested_(nested_discretisation(*full.anatomy(), full.scene(), space, full.discretisation())),
-      candidates_(nested_),
       basis_(dynamic_cast<const polyaffine::NestedBasis&>(*nested_.basis)),
+      chosen_from_(candidate_rule(nested_)),
+      candidates_(with_rule(nested_, chosen_from_)),
       metric_(modes.metric(space)),
       root_(metric_.llt().matrixU()),
-      wall_(0) {
-  const auto& points = nested_.points;
-  wall_points_ = candidates_of(basis_, points.tet, points.barycentric, points.weights,
-                               static_cast<int>(std::clamp<Eigen::Index>(
-                                   points.weights.size() / kThinned, kFewestCandidates, kMostCandidates)));
-  candidates_.points = kept(points, wall_points_);
-  wall_ = CubatureTraining(std::ssize(wall_points_.points));
+      wall_(std::ssize(chosen_from_.wall.points)) {
   for (std::size_t k = 0; k < nested_.cavities.size(); ++k) {
-    const auto& surface = nested_.cavities[k].points;
-    cavity_points_.push_back(
-        candidates_of(basis_, surface.tet, surface.barycentric, surface.weights, kCavityCandidates));
-    candidates_.cavities[k].points = kept(surface, cavity_points_.back());
-    cavities_.emplace_back(std::ssize(cavity_points_.back().points));
+    cavities_.emplace_back(std::ssize(chosen_from_.cavities[k].points));
     whole_cavities_.push_back(cavity_of(basis_, nested_.cavities[k]));
   }
 }
 
-bool NestedRuleTraining::add(const FullState& state) {
+bool NestedRuleTraining::add(const FullState& state, double weight) {
   Measure at;
   at.ventricle = assemble_ventricle(full_.anatomy(), with_regions(full_.scene(), state.load), candidates_);
   at.c = modes_.nearest(space_, metric_, state.u);
+  at.weight = weight;
   at.load = wall_load(at.ventricle, state.load);
-  at.size = (root_ * at.c).norm();
+  at.size = (root_ * at.c).norm() / weight;
   const polyaffine::FieldEnergy& wall = *at.ventricle.wall;
   const bool mixed = wall.pressure_space().has_value();
   if (mixed) at.pressure = modes_.nearest_pressure(space_, state.pressure);
@@ -113,7 +126,7 @@ bool NestedRuleTraining::add(const FullState& state) {
   if (!(at.size > 0) || !at.tangent->factorise() || !at.tangent->positive_definite()) return false;
   add_wall(at, state);
   for (std::size_t k = 0; k < cavities_.size(); ++k) add_cavity(at, k);
-  ++states_;
+  states_ += weight * weight;
   return true;
 }
 
@@ -154,9 +167,10 @@ void NestedRuleTraining::add_cavity(const Measure& at, std::size_t cavity) {
   Matrix forces(at.c.size(), n + 1);
   forces << pressure * terms.gradient, pressure * all.gradient;
   const Matrix moved = at.displaced(std::move(forces), nested_.fixed, root_);
+  const double matters = kVolumeMatters * at.weight;
   Matrix rows(moved.rows() + 1, n + 1);
   rows.topRows(moved.rows()) = moved;
-  rows.bottomRows(1) << kVolumeMatters / all.value * terms.value.transpose(), kVolumeMatters;
+  rows.bottomRows(1) << matters / all.value * terms.value.transpose(), matters;
   cavities_[cavity].add(rows.leftCols(n), rows.col(n), rows);
 }
 
@@ -167,20 +181,12 @@ NestedRule NestedRuleTraining::select(double accuracy) const {
   NestedRule out;
   const auto& points = nested_.points;
   out.wall =
-      chosen(basis_, points.tet, points.barycentric, wall_points_, wall_.select(share(wall_, accuracy)));
+      chosen(basis_, points.tet, points.barycentric, chosen_from_.wall, wall_.select(share(wall_, accuracy)));
   for (std::size_t k = 0; k < cavities_.size(); ++k) {
     const auto& surface = nested_.cavities[k].points;
-    out.cavities.push_back(chosen(basis_, surface.tet, surface.barycentric, cavity_points_[k],
+    out.cavities.push_back(chosen(basis_, surface.tet, surface.barycentric, chosen_from_.cavities[k],
                                   cavities_[k].select(share(cavities_[k], kCavityShare * accuracy))));
   }
-  return out;
-}
-
-Discretisation NestedRuleTraining::with(const NestedRule& rule) const {
-  Discretisation out = nested_;
-  out.points = kept(nested_.points, rule.wall);
-  for (std::size_t k = 0; k < rule.cavities.size(); ++k)
-    out.cavities[k].points = kept(nested_.cavities[k].points, rule.cavities[k]);
   return out;
 }
 

@@ -12,6 +12,12 @@ struct NestedRule {
   std::vector<KeptPoints> cavities;
 };
 
+/// Some of the points of a nested model, each for the same share of the whole: what a trained rule chooses
+/// from.
+NestedRule candidate_rule(const Discretisation& nested);
+/// The nested model with the points of a rule only.
+Discretisation with_rule(const Discretisation& nested, const NestedRule& rule);
+
 /// Trains the sparse rule of a nested model. Of the full-order points some are candidates; few are kept, with
 /// weights ≥ 0, so that in given states the generalised forces f and the changes of volume g that pressures
 /// see come out as all full-order points have them. With the tangent K of a state (pressures eliminated), D =
@@ -23,14 +29,13 @@ class NestedRuleTraining {
   /// All of them must outlive it.
   NestedRuleTraining(FullOrder& full, const HeartModes& modes, const NestedSpace& space);
 
-  /// A state by its full-order displacement and pressures, of which the space holds the nearest. False where
-  /// its tangent is not positive definite: it measures nothing.
-  bool add(const FullState& state);
+  /// A state by its full-order displacement and pressures, of which the space holds the nearest; its errors
+  /// count `weight` times. False where its tangent is not positive definite: it measures nothing.
+  bool add(const FullState& state, double weight = 1);
   /// The points with the wanted root mean square error over the states, that of the cavities a half.
   NestedRule select(double accuracy) const;
-  /// The nested model with the points of a rule only.
-  Discretisation with(const NestedRule& rule) const;
 
+  const Discretisation& nested() const { return nested_; }
   const polyaffine::Matrix& metric() const { return metric_; }
 
  private:
@@ -42,12 +47,12 @@ class NestedRuleTraining {
   FullOrder& full_;
   const HeartModes& modes_;
   const NestedSpace& space_;
-  Discretisation nested_, candidates_;
+  Discretisation nested_;
   const polyaffine::NestedBasis& basis_;
-  KeptPoints wall_points_;  // the candidates
-  std::vector<KeptPoints> cavity_points_;
+  NestedRule chosen_from_;
+  Discretisation candidates_;
   polyaffine::Matrix metric_, root_;  // G = rootᵀ root
-  int states_ = 0;
+  double states_ = 0;                 // Σ weight²
   polyaffine::CubatureTraining wall_;
   std::vector<polyaffine::CubatureTraining> cavities_;
   std::vector<Cavity> whole_cavities_;  // on all points

@@ -37,19 +37,52 @@ void archive(Archive& a, CavitySurface& x) {
 }
 
 template <class Archive>
+void archive(Archive& a, WorstLoad& x) {
+  a(x.displacement_percent, x.volume_percent, x.best_percent, x.load);
+}
+
+template <class Archive>
 void archive(Archive& a, TuningRound& x) {
-  a(x.full_order_solves, x.modes, x.pressures, x.unknowns, x.points, x.seconds, x.displacement_percent,
-    x.volume_percent, x.best_percent, x.worst);
+  a(x.full_order_solves, x.modes, x.pressures, x.unknowns, x.points, x.seconds, x.protocol, x.segments);
 }
 
 namespace {
 
-const polyaffine::ArchiveFormat kModel{"cardiac heart model", 1}, kCached{"cardiac tuned model", 1};
-constexpr const char* kKind = "tuned-1";  // the number changes when the training does
+const polyaffine::ArchiveFormat kModel{"cardiac heart model", 2}, kCached{"cardiac tuned model", 2};
+constexpr const char* kKind = "tuned-2";  // the number changes when the training does
+
+// Numbers that are of single precision already.
+template <class Archive>
+void single(Archive& a, polyaffine::Matrix& x) {
+  Eigen::MatrixXf numbers;
+  if constexpr (!Archive::kReading) numbers = x.cast<float>();
+  a(numbers);
+  if constexpr (Archive::kReading) x = numbers.cast<double>();
+}
+
+// The modes and pressures of the model are the first of those of its check.
+template <class Archive>
+void spaces(Archive& a, TunedModel& x) {
+  auto pressures = static_cast<std::uint64_t>(x.space.pressures.rows());
+  a(x.space.num_modes, pressures, x.check.space.num_modes);
+  single(a, x.check.space.modes);
+  single(a, x.check.space.pressures);
+  if constexpr (Archive::kReading) {
+    const NestedSpace& all = x.check.space;
+    if (x.space.num_modes < 0 || x.space.num_modes > all.num_modes || all.modes.cols() % 3 != 0 ||
+        all.num_modes > all.modes.cols() || all.modes.cols() >= all.num_modes + 3 ||
+        pressures > static_cast<std::uint64_t>(all.pressures.rows()))
+      a.refuse("found modes that are not those of a model and its check");
+    x.space.modes = polyaffine::Matrix::Zero(all.modes.rows(), (x.space.num_modes + 2) / 3 * 3);
+    x.space.modes.leftCols(x.space.num_modes) = all.modes.leftCols(x.space.num_modes);
+    x.space.pressures = all.pressures.topRows(static_cast<Eigen::Index>(pressures));
+  }
+}
 
 template <class Archive>
 void members(Archive& a, TunedModel& x) {
-  a.section("space", [&] { a(x.space.modes, x.space.num_modes, x.space.pressures); });
+  a.section("space", [&] { spaces(a, x); });
+  a.section("check", [&] { a(x.check.pressure_mass, x.check.factor); });
   a.section("points", [&] { a(x.wall, x.cavities, x.epicardium, x.pressure_mass); });
   a.section("training", [&] { a(x.coordinates, x.least, x.largest, x.rounds, x.reached); });
 }
@@ -83,13 +116,12 @@ void check(ArchiveReader& a, const TunedModel& x) {
     for (const int t : points.tet) good = good && t >= 0 && t < tets;
     return good;
   };
-  bool good = inside(x.wall) && !x.rounds.empty() && x.space.modes.cols() % 3 == 0 &&
-              x.space.num_modes >= 0 && x.space.modes.cols() >= x.space.num_modes &&
-              x.space.modes.cols() < x.space.num_modes + 3 &&
-              x.pressure_mass.rows() == x.space.pressures.rows() &&
+  bool good = inside(x.wall) && !x.rounds.empty() && x.pressure_mass.rows() == x.space.pressures.rows() &&
               x.pressure_mass.cols() == x.space.pressures.rows() && x.coordinates.rows() == x.least.size() &&
               x.largest.size() == x.least.size();
   for (const CavitySurface& cavity : x.cavities) good = good && inside(cavity.points);
+  good = good && x.check.pressure_mass.rows() == x.check.space.pressures.rows() &&
+         x.check.pressure_mass.cols() == x.check.space.pressures.rows();
   if (!good) a.refuse("found parts of a tuned model that do not fit each other, expected those of one model");
 }
 
@@ -188,11 +220,11 @@ void keep_model(const Anatomy& anatomy, const Scene& scene, const TunedModel& mo
 }
 
 void complete(const Anatomy& anatomy, const Scene& scene, TunedModel& model) {
-  NestedSpace own = affine_space(anatomy, scene);
-  own.modes = std::move(model.space.modes);
-  own.num_modes = model.space.num_modes;
-  own.pressures = std::move(model.space.pressures);
-  model.space = std::move(own);
+  const NestedSpace affine = affine_space(anatomy, scene);
+  for (NestedSpace* space : {&model.space, &model.check.space}) {
+    space->frame_basis = affine.frame_basis;
+    space->frames = affine.frames;
+  }
 }
 
 }  // namespace cardiac

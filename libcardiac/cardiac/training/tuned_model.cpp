@@ -17,13 +17,20 @@ using polyaffine::Vector;
 namespace {
 
 // Shares of the accuracy (of displacement in L2, where a tolerance is of its gradient).
+// Shares of the accuracy (of displacement in L2, where a tolerance is of its gradient).
 constexpr double kPathShare = 0.3, kNeighbourShare = 0.8, kRuleShare = 0.4;
 // Pressures want to be fewer than displacements: with modes alone more of them hold the wall back.
 constexpr double kPressureShare = 6, kPressureShareOfFrames = 2;
-constexpr int kMostModes = 75;
+constexpr int kMostModes = 150;
 // A rule that is asked for less keeps so few points that what it misses is no longer small.
 constexpr double kLooseRule = 0.004;
 constexpr double kRefinement = 0.6;  // of the tolerances, from round to round
+// An error in a state of the path counts so many times as one in an answer to other segments.
+constexpr double kPathMatters = 2;
+// The functions of a model limit it where the nearest of them is off by this share of its error.
+constexpr double kLimited = 0.3;
+// The functions of its error check: tolerances over those of the model, and how many more there may be.
+constexpr double kFiner = 0.25, kMore = 1.6;
 
 // How different two loads are, in pressure and tension over the largest of the plan.
 class LoadDistance {
@@ -41,17 +48,32 @@ class LoadDistance {
       sum += std::abs(a.pressures_kPa[k] - b.pressures_kPa[k]) / pressure_;
     return sum + (a.regions.empty() == b.regions.empty() ? 0 : 1);
   }
-
- private:
   double mean_tension(const TrainingLoad& load) const {
     return ventricle_.contraction ? load.level * ventricle_.contraction->tension(load.clock_ms).mean() : 0;
   }
+
+ private:
   const Ventricle& ventricle_;
   double pressure_ = 1e-9, tension_ = 1e-9;
 };
 
+// A load held out: the truth, what the model made of it (none where it failed), the nearest of its functions.
 struct Comparison {
-  double displacement = 0, volume = 0, best = 0;  // relative
+  FullState truth;
+  std::optional<NestedState> model;
+  double displacement = 1, volume = 1, best = 1;  // relative errors
+};
+
+void note_worst(const Comparison& of, WorstLoad& worst) {
+  worst.volume_percent = std::max(worst.volume_percent, 100 * of.volume);
+  if (!worst.load.empty() && 100 * of.displacement <= worst.displacement_percent) return;
+  worst.displacement_percent = 100 * of.displacement;
+  worst.best_percent = 100 * of.best;
+  worst.load = of.truth.load.name;
+}
+
+struct Tolerances {
+  double path, neighbours, pressures, rule;
 };
 
 class Tuning {
@@ -67,30 +89,33 @@ class Tuning {
 
   TunedModel run() {
     solve_path();
-    add_linear_answers();
+    for (const TuningPlan::Changes& changes : plan_.neighbours) {
+      const auto state = std::ranges::find(path_, changes.of, [](const FullState& s) { return s.load.name; });
+      if (state != path_.end()) add_linear_answers(*state, changes.regions);
+    }
     const double accuracy = control_.accuracy_percent / 100;
     const double pressure = full_.scene().reduction.affine_frames ? kPressureShareOfFrames : kPressureShare;
-    HeartModes::Options options{kPathShare * accuracy, kNeighbourShare * accuracy, pressure * accuracy,
-                                kMostModes};
-    double rule = std::min(kRuleShare * accuracy, kLooseRule);
+    Tolerances tolerances{kPathShare * accuracy, kNeighbourShare * accuracy, pressure * accuracy,
+                          std::min(kRuleShare * accuracy, kLooseRule)};
     TunedModel model, best;
+    double least = 0;
     for (int round = 0;; ++round) {
-      build(options, rule, round, model);
-      const TuningRound found = hold_against(plan_.held_out(round), model, round);
-      model.rounds.push_back(found);
-      if (control_.on_round) control_.on_round(found);
-      model.reached = found.displacement_percent <= control_.accuracy_percent;
-      const double a_round = found.seconds / (round + 1);
-      if (best.rounds.empty() || found.displacement_percent < best.rounds.back().displacement_percent)
+      build(tolerances, round, model);
+      const std::vector<Comparison> found = hold_against(plan_.held_out(round), model, round);
+      const TuningRound& last = model.rounds.back();
+      if (control_.on_round) control_.on_round(last);
+      const double off = std::max(last.protocol.displacement_percent,
+                                  last.segments.displacement_percent / kSegmentsAllowance) /
+                         control_.accuracy_percent;
+      model.reached = off <= 1;
+      if (round == 0 || off < least) {
+        least = off;
+        teach_check(tolerances, found, model);
         best = model;
-      if (model.reached || found.seconds + a_round > control_.budget_s) return best;
-      // More modes help only where the space itself is far from the truth.
-      if (found.best_percent > 0.3 * found.displacement_percent) {
-        options.tolerance *= kRefinement;
-        options.neighbour_tolerance *= kRefinement;
       }
-      rule *= kRefinement;
-      options.pressure_tolerance *= kRefinement;
+      if (model.reached || last.seconds * (round + 2) / (round + 1) > control_.budget_s) return best;
+      learn(found);
+      refine(last, tolerances);
     }
   }
 
@@ -114,7 +139,7 @@ class Tuning {
   void solve_path() {
     for (const TrainingLoad& load : plan_.path) {
       tell("full order: " + load.name);
-      auto state = full_.solve(load, nearest(load));
+      auto state = path_.empty() ? full_.solve(load, nullptr) : full_.follow(load, *nearest(load));
       if (state)
         path_.push_back(std::move(*state));
       else if (path_.empty())
@@ -123,28 +148,33 @@ class Tuning {
     }
   }
 
-  void add_linear_answers() {
-    for (const TuningPlan::Changes& changes : plan_.neighbours) {
-      const auto state = std::ranges::find(path_, changes.of, [](const FullState& s) { return s.load.name; });
-      if (state == path_.end()) continue;
-      tell("answers of " + changes.of + " to changes of the segments");
-      for (FullState& answer : full_.linear_answers(*state, changes.regions))
-        neighbours_.push_back(std::move(answer));
-    }
+  void add_linear_answers(const FullState& of, const std::vector<scene::RegionOverride>& changes) {
+    tell("answers of " + of.load.name + " to changes of the segments");
+    for (FullState& answer : full_.linear_answers(of, changes)) neighbours_.push_back(std::move(answer));
   }
 
-  void build(const HeartModes::Options& options, double rule_accuracy, int round, TunedModel& model) {
-    model.space = modes_.space(path_, neighbours_, options);
+  HeartModes::States states() const {
+    HeartModes::States out;
+    for (const auto* list : {&path_, &neighbours_})
+      for (const FullState& s : *list) out.push_back(&s);
+    return out;
+  }
+
+  void build(const Tolerances& tolerances, int round, TunedModel& model) {
+    const HeartModes::States all = states();
+    const HeartModes::States path(all.begin(), all.begin() + std::ssize(path_));
+    model.space = modes_.with_modes(modes_.affine(), path, tolerances.path, kMostModes);
+    model.space = modes_.with_modes(std::move(model.space), all, tolerances.neighbours, kMostModes);
+    model.space = modes_.with_pressures(std::move(model.space), all, tolerances.pressures, kMostModes);
     tell("points for " + std::to_string(model.space.num_modes) + " modes");
     NestedRuleTraining training(full_, modes_, model.space);
     for (const auto* states : {&path_, &neighbours_})
       for (const FullState& state : *states) {
         tell("round " + std::to_string(round + 1) + ": forces of " + state.load.name);
-        training.add(state);
+        training.add(state, states == &path_ ? kPathMatters : 1);
       }
     tell("round " + std::to_string(round + 1) + ": choice of points");
-    const NestedRule rule = training.select(rule_accuracy);
-    const Discretisation kept = training.with(rule);
+    const Discretisation kept = with_rule(training.nested(), training.select(tolerances.rule));
     model.wall = kept.points;
     model.cavities = kept.cavities;
     model.epicardium = kept.epicardium_points;
@@ -168,54 +198,112 @@ class Tuning {
     model.largest = along.rowwise().maxCoeff().cwiseMax(0);
   }
 
-  TuningRound hold_against(const std::vector<TrainingLoad>& loads, const TunedModel& model, int round) {
+  std::vector<Comparison> hold_against(const std::vector<TrainingLoad>& loads, TunedModel& model, int round) {
     const Discretisation d = tuned_discretisation(*full_.anatomy(), full_.scene(), model);
     TuningRound out;
     out.modes = model.space.num_modes;
     out.pressures = static_cast<int>(model.space.pressures.rows());
     out.unknowns = d.num_unknowns;
     out.points = static_cast<int>(d.points.tet.size());
+    std::vector<Comparison> all;
     for (const TrainingLoad& load : loads) {
       tell("round " + std::to_string(round + 1) + ": held against " + load.name);
-      const auto found = compare(load, model, d);
+      auto found = compare(load, model, d);
       if (!found) continue;
-      out.volume_percent = std::max(out.volume_percent, 100 * found->volume);
-      if (!out.worst.empty() && 100 * found->displacement <= out.displacement_percent) continue;
-      out.displacement_percent = 100 * found->displacement;
-      out.best_percent = 100 * found->best;
-      out.worst = load.name;
+      note_worst(*found, load.regions.empty() ? out.protocol : out.segments);
+      all.push_back(std::move(*found));
     }
-    if (out.worst.empty())
+    if (all.empty())
       throw polyaffine::ComputationError(
           "tuning: the full-order model has no equilibrium under any of the loads held out");
     out.full_order_solves = full_.solves();
     out.seconds = seconds();
-    return out;
+    model.rounds.push_back(out);
+    return all;
   }
 
-  // The model against full order under a load, which is then learned from. None where full order fails.
+  // The model against full order under a load. None where full order fails.
   std::optional<Comparison> compare(const TrainingLoad& load, const TunedModel& model,
                                     const Discretisation& d) {
     const Ventricle v = assemble_ventricle(full_.anatomy(), with_regions(full_.scene(), load), d);
     const polyaffine::System system = loaded_ventricle(v, wall_load(v, load));
     Vector c = Vector::Zero(v.num_coefficients());
-    const bool solved = polyaffine::load_stepping(system, *system.make_linear(), c, {}).converged();
-    const auto& basis = dynamic_cast<const polyaffine::NestedBasis&>(*d.basis);
-    FullState start{load, basis.nodal(c), {}};
-    if (v.wall->pressure_space()) start.pressure = model.space.pressures.transpose() * v.wall->pressure(c);
-    auto state = full_.solve(load, solved ? &start : nearest(load));
-    if (!state) return std::nullopt;
-    Comparison out{1, 1, 1};
-    const double size = modes_.size(state->u);
-    if (solved) out.displacement = modes_.size(start.u - state->u) / size;
-    const Vector best = basis.nodal(modes_.nearest(model.space, metric_, state->u));
-    out.best = modes_.size(best - state->u) / size;
-    if (solved && !v.cavities.empty()) {
-      const Vector volumes = plain_.cavity_volumes(state->u);
-      out.volume = (v.cavity_volumes(c).cwiseQuotient(volumes).array() - 1).abs().maxCoeff();
+    Comparison out;
+    std::optional<FullState> near;
+    if (polyaffine::load_stepping(system, *system.make_linear(), c, {}).converged()) {
+      out.model = {load, c, {}};
+      near = {load, modes_.nodal(model.space, c), {}};
+      if (v.wall->pressure_space()) {
+        out.model->pressure = v.wall->pressure(c);
+        near->pressure = model.space.pressures.transpose() * out.model->pressure;
+      }
     }
-    (load.regions.empty() ? path_ : neighbours_).push_back(std::move(*state));
+    auto truth = full_.solve(load, near ? &*near : nearest(load));
+    if (!truth) return std::nullopt;
+    out.truth = std::move(*truth);
+    const Vector& u = out.truth.u;
+    const double size = modes_.size(u);
+    out.best = modes_.size(modes_.nodal(model.space, modes_.nearest(model.space, metric_, u)) - u) / size;
+    if (!out.model) return out;
+    out.displacement = modes_.size(near->u - u) / size;
+    const Vector volumes = plain_.cavity_volumes(u);
+    out.volume =
+        volumes.size() > 0 ? (v.cavity_volumes(c).cwiseQuotient(volumes).array() - 1).abs().maxCoeff() : 0;
     return out;
+  }
+
+  // The functions, answers and factor of the model's error check. What was held out has not been learned yet.
+  void teach_check(const Tolerances& tolerances, const std::vector<Comparison>& held_out, TunedModel& model) {
+    tell("error check");
+    ErrorCheck& check = model.check;
+    check = {};
+    const int most = static_cast<int>(kMore * model.space.num_modes);
+    check.space = modes_.with_modes(model.space, states(), kFiner * tolerances.neighbours, most);
+    check.space =
+        modes_.with_pressures(std::move(check.space), states(), kFiner * tolerances.pressures,
+                              static_cast<int>(kMore * static_cast<double>(model.space.pressures.rows())));
+    check.pressure_mass =
+        nested_discretisation(*full_.anatomy(), full_.scene(), check.space, full_.discretisation())
+            .pressure_mass;
+    const Discretisation larger = check_discretisation(*full_.anatomy(), full_.scene(), model);
+    double sum = 0;
+    int count = 0;
+    for (const Comparison& c : held_out) {
+      if (!c.model) continue;
+      const auto estimate = estimated_error(
+          check, assemble_ventricle(full_.anatomy(), with_regions(full_.scene(), c.model->load), larger),
+          full_.ventricle(c.model->load), *c.model);
+      if (!estimate || !(*estimate > 0 && c.displacement > 0)) continue;
+      sum += std::log(c.displacement / *estimate);
+      ++count;
+    }
+    if (count > 0) check.factor = std::exp(sum / count);
+  }
+
+  // What was held out is learned; where the functions were too poor, also how it answers to other segments.
+  void learn(const std::vector<Comparison>& held_out) {
+    for (const Comparison& c : held_out) {
+      const bool other_segments = !c.truth.load.regions.empty();
+      if (other_segments && 100 * c.displacement > kSegmentsAllowance * control_.accuracy_percent &&
+          c.best > kLimited * c.displacement)
+        for (const TuningPlan::Changes& changes : plan_.neighbours)
+          if (c.truth.load.name.starts_with(changes.of)) add_linear_answers(c.truth, changes.regions);
+      (other_segments ? neighbours_ : path_).push_back(c.truth);
+    }
+  }
+
+  void refine(const TuningRound& round, Tolerances& tolerances) const {
+    const auto refine_for = [&](const WorstLoad& worst, double allowed, double& of_space) {
+      if (worst.displacement_percent <= allowed) return;
+      if (worst.best_percent > kLimited * worst.displacement_percent) {
+        of_space *= kRefinement;
+        tolerances.pressures *= kRefinement;
+      }
+      tolerances.rule *= kRefinement;
+    };
+    const double accuracy = control_.accuracy_percent;
+    refine_for(round.protocol, accuracy, tolerances.path);
+    refine_for(round.segments, kSegmentsAllowance * accuracy, tolerances.neighbours);
   }
 
   const TuningPlan& plan_;
@@ -248,14 +336,27 @@ double outside(const TunedModel& model, const Vector& c) {
   return at.norm() > 0 ? (at - inside).norm() / at.norm() : 0;
 }
 
-Discretisation tuned_discretisation(const Anatomy& anatomy, const Scene& scene, const TunedModel& model) {
+namespace {
+
+Discretisation with_points_of(const TunedModel& model, const NestedSpace& space, const Matrix& pressure_mass,
+                              const Anatomy& anatomy, const Scene& scene) {
   Discretisation points;
   points.points = model.wall;
   points.cavities = model.cavities;
   points.epicardium_points = model.epicardium;
-  Discretisation out = nested_discretisation(anatomy, scene, model.space, points);
-  out.pressure_mass = model.pressure_mass;
+  Discretisation out = nested_discretisation(anatomy, scene, space, points);
+  out.pressure_mass = pressure_mass;
   return out;
+}
+
+}  // namespace
+
+Discretisation tuned_discretisation(const Anatomy& anatomy, const Scene& scene, const TunedModel& model) {
+  return with_points_of(model, model.space, model.pressure_mass, anatomy, scene);
+}
+
+Discretisation check_discretisation(const Anatomy& anatomy, const Scene& scene, const TunedModel& model) {
+  return with_points_of(model, model.check.space, model.check.pressure_mass, anatomy, scene);
 }
 
 }  // namespace cardiac
