@@ -127,6 +127,8 @@ std::vector<FullState> FullOrder::linear_answers(const FullState& state,
   for (std::size_t i = 0; i < discretisation_.fixed.size(); ++i)
     if (discretisation_.fixed[i]) rhs.row(static_cast<Eigen::Index>(i)).setZero();
   const Matrix answers = linear_->solve(rhs);
+  polyaffine::VolumeGradient D;
+  if (mixed) D = v.wall->volume_gradient(state.u);
   for (std::size_t k = 0; k < out.size(); ++k) {
     const Vector whole = answers.col(static_cast<Eigen::Index>(k));
     const double share = std::min(1.0, kLargestStep / largest_gradient(v.wall->table(), whole));
@@ -135,8 +137,7 @@ std::vector<FullState> FullOrder::linear_answers(const FullState& state,
     region.stiffness_factor = 1 + share * (region.stiffness_factor - 1);
     const Vector step = share * whole;
     out[k].u = state.u + step;
-    if (mixed)
-      out[k].pressure = state.pressure + v.wall->penalty_pressure(v.wall->volume_change(state.u, step));
+    if (mixed) out[k].pressure = state.pressure + v.wall->penalty_pressure(D.times(step));
   }
   return out;
 }

@@ -153,7 +153,7 @@ void NestedRuleTraining::add_wall(const Measure& at, const FullState& state) {
     }
     changes.col(n) += nested_.pressure_mass * at.pressure / space.bulk_modulus;
     const Matrix penalty = space.bulk_modulus * nested_.pressure_mass.llt().solve(changes);
-    forces.noalias() += wall.volume_gradient(at.c).transpose() * penalty;
+    forces += wall.volume_gradient(at.c).transpose_times(penalty);
   }
   const Matrix moved = at.displaced(std::move(forces), nested_.fixed, root_);
   wall_.add(moved.leftCols(n), moved.col(n), moved);

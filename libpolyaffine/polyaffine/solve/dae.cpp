@@ -151,6 +151,9 @@ void set_tolerances(const StateLayout& layout, UserData& data) {
     block.at.of(data.absolute_tolerance).setConstant(block.absolute_tolerance);
   const double field = layout.field().size, few = static_cast<double>(layout.few().size());
   if (field > 0 && few > 0) data.error_weight(layout.few()).setConstant(std::sqrt(field / few));
+  // The mean is over all unknowns: those that no norm sees are to leave it as it is without them.
+  const double seen = static_cast<double>(data.absolute_tolerance.array().isFinite().count());
+  data.error_weight *= std::sqrt(static_cast<double>(layout.size()) / seen);
 }
 
 // 1 for the unknowns that the error test sees, 0 for the others; empty where it sees all.
@@ -181,6 +184,8 @@ std::string describe(int flag) {
 }  // namespace
 
 struct DaeIntegrator::Implementation {
+  System system;  // in the mixed form; what its terms have added to the layout stands last
+  int size;       // without that
   sundials::Context context;
   sundials::NVector y, rate;
   sundials::Matrix matrix;
@@ -193,7 +198,8 @@ struct DaeIntegrator::Implementation {
   std::string failure;
   void* ida = nullptr;
 
-  Implementation(const System& system, LinearSystem& linear_system) : linearised(system, linear_system) {}
+  Implementation(const System& of, LinearSystem& linear_system)
+      : system(mixed_form(of)), size(of.size()), linearised(system, linear_system) {}
   ~Implementation() {
     if (ida) IDAFree(&ida);
   }
@@ -202,30 +208,34 @@ struct DaeIntegrator::Implementation {
 DaeIntegrator::DaeIntegrator(const System& system, const DaeOptions& options, double t, const Vector& y,
                              const Vector& rate)
     : own_linear_(system.make_linear()), impl_(std::make_unique<Implementation>(system, *own_linear_)) {
-  begin(system, options, t, y, rate);
+  begin(options, t, y, rate);
 }
 
 DaeIntegrator::DaeIntegrator(const System& system, LinearSystem& linear, const DaeOptions& options, double t,
                              const Vector& y, const Vector& rate)
     : impl_(std::make_unique<Implementation>(system, linear)) {
-  begin(system, options, t, y, rate);
+  begin(options, t, y, rate);
 }
 
-void DaeIntegrator::begin(const System& system, const DaeOptions& options, double t, const Vector& y,
-                          const Vector& rate) {
+void DaeIntegrator::begin(const DaeOptions& options, double t, const Vector& y, const Vector& rate) {
   auto& m = *impl_;
+  const StateLayout& layout = m.system.layout;
   m.max_step = options.max_step;
-  m.user.system = &system;
+  m.user.system = &m.system;
   m.user.solver = &m.direct;
   m.user.relative_tolerance = options.relative_tolerance;
   m.user.t = t;
-  set_tolerances(system.layout, m.user);
+  set_tolerances(layout, m.user);
   m.direct.linearised = &m.linearised;
   m.t = t;
   m.y_out = y;
   m.rate_out = rate;
-  m.y = sundials::make_vector(y, m.context);
-  m.rate = sundials::make_vector(rate, m.context);
+  Vector y_all = Vector::Zero(layout.size()), rate_all = Vector::Zero(layout.size());
+  y_all.head(m.size) = y;
+  rate_all.head(m.size) = rate;
+  for (const auto& term : m.system.terms) term->start(y_all, &rate_all);
+  m.y = sundials::make_vector(y_all, m.context);
+  m.rate = sundials::make_vector(rate_all, m.context);
   m.direct.ida = m.ida = IDACreate(m.context);
   check(IDAInit(m.ida, residual, t, m.y.get(), m.rate.get()), "IDAInit");
   check(IDASetUserData(m.ida, &m.user), "IDASetUserData");
@@ -244,7 +254,7 @@ void DaeIntegrator::begin(const System& system, const DaeOptions& options, doubl
   check(IDASetEtaMin(m.ida, kStepCut), "IDASetEtaMin");
   check(IDASetEtaLow(m.ida, kStepCut), "IDASetEtaLow");
   check(IDASetEtaMinErrFail(m.ida, kStepCut), "IDASetEtaMinErrFail");
-  if (const Vector by_unknown = error_tested(system.layout); by_unknown.size() > 0) {
+  if (const Vector by_unknown = error_tested(layout); by_unknown.size() > 0) {
     const sundials::NVector tested = sundials::make_vector(by_unknown, m.context);
     check(IDASetId(m.ida, tested.get()), "IDASetId");  // copies
     check(IDASetSuppressAlg(m.ida, SUNTRUE), "IDASetSuppressAlg");
@@ -269,8 +279,8 @@ DaeStatus DaeIntegrator::step(double limit) {
     return DaeStatus::failed;
   }
   m.t = reached;
-  m.y_out = view(m.y.get());
-  m.rate_out = view(m.rate.get());
+  m.y_out = view(m.y.get()).head(m.size);
+  m.rate_out = view(m.rate.get()).head(m.size);
   return DaeStatus::reached;
 }
 
@@ -278,7 +288,7 @@ void DaeIntegrator::interpolate(double t, Vector& y) const {
   auto& m = *impl_;
   const sundials::NVector out(N_VClone(m.y.get()));
   check(IDAGetDky(m.ida, t, 0, out.get()), "IDAGetDky");
-  y = view(out.get());
+  y = view(out.get()).head(m.size);
 }
 
 double DaeIntegrator::time() const {

@@ -247,13 +247,13 @@ PointTerms FieldEnergy::point_terms(const Motion& motion) const {
   return out;
 }
 
-void FieldEnergy::add_tangent(const Motion& motion, LinearSystem& system, double scale,
-                              double rate_factor) const {
+VolumeGradient FieldEnergy::add_tangent(const Motion& motion, LinearSystem& system, double scale,
+                                        double rate_factor) const {
   const Motion used{motion.c, motion.state, rate_factor != 0 ? motion.rate : nullptr, motion.pressure};
   const Kinematics kin = kinematics(used);
   const bool global = pressure_ && !inverse_mass_.local();
-  Matrix D;
-  if (global) D = Matrix::Zero(pressure_->num_functions, table_.num_unknowns());
+  VolumeGradient D;
+  if (pressure_) D = VolumeGradient(*pressure_, table_, !global);
   std::vector<Matrix> K(kChunk), rows(kChunk);
   for_blocks(
       true, static_cast<int>(packed_.size()),
@@ -283,16 +283,11 @@ void FieldEnergy::add_tangent(const Motion& motion, LinearSystem& system, double
       },
       [&](int k, int slot) {
         if (K[slot].size() == 0) return;
-        const std::vector<int>& functions = packed_[k].functions();
-        system.add(functions, K[slot]);
-        if (!global) return;
-        const auto& pressures = pressure_->blocks[k].functions;
-        for (std::size_t b = 0; b < pressures.size(); ++b)
-          for (std::size_t a = 0; a < functions.size(); ++a)
-            D.row(pressures[b]).segment<3>(3 * functions[a]) +=
-                rows[slot].row(static_cast<Eigen::Index>(b)).segment<3>(static_cast<Eigen::Index>(3 * a));
+        system.add(packed_[k].functions(), K[slot]);
+        if (pressure_) D.add(static_cast<std::size_t>(k), *pressure_, std::move(rows[slot]));
       });
-  if (global) system.add_gram(inverse_mass_.half(D), scale * pressure_->bulk_modulus);
+  if (global) system.add_gram(inverse_mass_.half(D.whole()), scale * pressure_->bulk_modulus);
+  return D;
 }
 
 Vector FieldEnergy::pressure(const Vector& c) const {
@@ -303,64 +298,18 @@ Vector FieldEnergy::penalty_pressure(const Vector& g) const {
   return pressure_->bulk_modulus * inverse_mass_.apply(g);
 }
 
-Vector FieldEnergy::volume_change(const Vector& c, const Vector& u) const {
-  Vector out = Vector::Zero(pressure_->num_functions);
-  std::vector<Mat3Pack> F, change;
-  for (std::size_t k = 0; k < packed_.size(); ++k) {
-    const PackedBlock& block = packed_[k];
-    F.resize(block.num_packs());
-    change.resize(block.num_packs());
-    block.field(c, true, F.data());
-    block.field(u, false, change.data());
-    Vector at_points = Vector::Zero(table_.blocks[k].count);
-    for (int pack = 0; pack < block.num_packs(); ++pack) {
-      const Mat3Pack S = scaled_cofactor(F[pack], block.weight(pack));
-      Pack product = broadcast(0);
-      for (int i = 0; i < 9; ++i) product += S.m[i] * change[pack].m[i];
-      const auto [point, lanes] = block.points(pack);
-      for (int lane = 0; lane < lanes; ++lane)
-        at_points[point - table_.blocks[k].first + lane] = product[lane];
-    }
-    out(pressure_->blocks[k].functions) += pressure_->blocks[k].values * at_points;
-  }
-  return out;
-}
-
-Matrix FieldEnergy::volume_gradient(const Vector& c) const {
-  Matrix out = Matrix::Zero(pressure_->num_functions, table_.num_unknowns());
+VolumeGradient FieldEnergy::volume_gradient(const Vector& c) const {
+  VolumeGradient out(*pressure_, table_, inverse_mass_.local());
   std::vector<Mat3Pack> S;
-  Matrix rows;
   for (std::size_t k = 0; k < packed_.size(); ++k) {
     const PackedBlock& block = packed_[k];
     S.resize(block.num_packs());
     block.field(c, true, S.data());
     for (int pack = 0; pack < block.num_packs(); ++pack)
       S[pack] = scaled_cofactor(S[pack], block.weight(pack));
+    Matrix rows;
     block_force_rows(block, S.data(), pressure_->blocks[k].values, rows);
-    const auto& pressures = pressure_->blocks[k].functions;
-    for (std::size_t b = 0; b < pressures.size(); ++b)
-      for (std::size_t a = 0; a < block.functions().size(); ++a)
-        out.row(pressures[b]).segment<3>(3 * static_cast<Eigen::Index>(block.functions()[a])) +=
-            rows.row(static_cast<Eigen::Index>(b)).segment<3>(static_cast<Eigen::Index>(3 * a));
-  }
-  return out;
-}
-
-Vector FieldEnergy::pressure_force(const Vector& c, const Vector& p) const {
-  Vector out = Vector::Zero(table_.num_unknowns());
-  std::vector<Mat3Pack> field;
-  Matrix force;
-  for (std::size_t k = 0; k < packed_.size(); ++k) {
-    const PackedBlock& block = packed_[k];
-    const Vector pressure = point_pressure(p, k);
-    field.resize(block.num_packs());
-    block.field(c, true, field.data());
-    for (int pack = 0; pack < block.num_packs(); ++pack)
-      field[pack] = scaled_cofactor(
-          field[pack],
-          block.weight(pack) * load(pressure.data() + kLanes * static_cast<std::ptrdiff_t>(pack)));
-    block.force(field.data(), force);
-    scatter(block.functions(), force, out);
+    out.add(k, *pressure_, std::move(rows));
   }
   return out;
 }

@@ -8,6 +8,7 @@
 #include <polyaffine/linear/linear_system.hpp>
 #include <polyaffine/material/law.hpp>
 #include <polyaffine/system/pressure_space.hpp>
+#include <polyaffine/system/volume_gradient.hpp>
 
 namespace polyaffine {
 
@@ -61,19 +62,16 @@ class FieldEnergy {
   PointTerms point_terms(const Motion& motion) const;
   /// Adds scale × tangent to the system, K(c, p) + κ DᵀM⁻¹D with D = ∂g/∂c: the exact tangent of the
   /// condensed form, and in the mixed form that of Newton's method after its pressure step is eliminated. The
-  /// dependence of viscous stress on c itself is not included (it vanishes with the step).
-  void add_tangent(const Motion& motion, LinearSystem& system, double scale = 1,
-                   double rate_factor = 0) const;
+  /// dependence of viscous stress on c itself is not included (it vanishes with the step). With a pressure
+  /// space D is returned, for whoever eliminates the pressures.
+  VolumeGradient add_tangent(const Motion& motion, LinearSystem& system, double scale = 1,
+                             double rate_factor = 0) const;
   /// The pressure coefficients (kPa) of the condensed form at c.
   Vector pressure(const Vector& c) const;
 
-  /// Parts of the mixed form, for an energy with a pressure space: κ M⁻¹ g, the change D(c) u of g along u,
-  /// and the force D(c)ᵀ p.
+  /// Parts of the mixed form, for an energy with a pressure space: κ M⁻¹ g and D(c).
   Vector penalty_pressure(const Vector& g) const;
-  Vector volume_change(const Vector& c, const Vector& u) const;
-  Vector pressure_force(const Vector& c, const Vector& p) const;
-  /// D(c) itself, pressures × unknowns, mm².
-  Matrix volume_gradient(const Vector& c) const;
+  VolumeGradient volume_gradient(const Vector& c) const;
 
  private:
   struct Kinematics;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace polyaffine {
@@ -29,6 +30,27 @@ Held held(const At& at, const FieldEnergy& energy, Unknowns c, const std::option
   if (state) out.state = state(at.t);
   return out;
 }
+
+class EliminatedPressures : public Elimination {
+ public:
+  EliminatedPressures(std::shared_ptr<const FieldEnergy> energy, double scale, Unknowns c, Unknowns pressures,
+                      VolumeGradient D)
+      : energy_(std::move(energy)), scale_(scale), c_(c), pressures_(pressures), D_(std::move(D)) {}
+
+  void condense(const Vector& rhs, Eigen::Ref<Vector> field) const override {
+    field.segment(c_.first, c_.size) +=
+        scale_ * D_.transpose_times(energy_->penalty_pressure(pressures_.of(rhs)));
+  }
+  void recover(const Vector& rhs, Vector& step) const override {
+    pressures_.of(step) = energy_->penalty_pressure(D_.times(c_.of(step)) - pressures_.of(rhs));
+  }
+
+ private:
+  std::shared_ptr<const FieldEnergy> energy_;
+  double scale_;
+  Unknowns c_, pressures_;
+  VolumeGradient D_;
+};
 
 }  // namespace
 
@@ -62,32 +84,31 @@ void FieldTerm::add_tangent(const At& at, double alpha, Tangent& out) const {
   const double s = scale(at.t);
   if (s == 0) return;
   const Held now = held(at, *energy_, c_, pressures_, state_);
-  energy_->add_tangent(now.motion(), out.field, s, at.rate ? alpha : 0);
-}
-
-void FieldTerm::condense(const At& at, double, const Vector& rhs, Eigen::Ref<Vector> field) const {
-  const double s = scale(at.t);
-  if (!pressures_ || s == 0) return;
-  field += s * energy_->pressure_force(c_.of(at.y), energy_->penalty_pressure(pressures_->of(rhs)));
-}
-
-void FieldTerm::recover(const At& at, double, const Vector& rhs, Vector& step) const {
-  if (!pressures_ || scale(at.t) == 0) return;
-  pressures_->of(step) =
-      energy_->penalty_pressure(energy_->volume_change(c_.of(at.y), c_.of(step)) - pressures_->of(rhs));
+  VolumeGradient D = energy_->add_tangent(now.motion(), out.field, s, at.rate ? alpha : 0);
+  if (pressures_)
+    out.eliminations.push_back(
+        std::make_unique<EliminatedPressures>(energy_, s, c_, *pressures_, std::move(D)));
 }
 
 std::shared_ptr<const Term> FieldTerm::mixed(StateLayout& layout) const {
   if (!energy_->pressure_space()) return nullptr;
   auto out = std::make_shared<FieldTerm>(*this);
   const std::string name = "pressures " + std::to_string(layout.blocks().size());
-  out->pressures_ = layout.add({.name = name, .unit = "kPa", .solved = Solved::apart},
+  out->pressures_ = layout.add({.name = name,
+                                .unit = "kPa",
+                                .solved = Solved::apart,
+                                .absolute_tolerance = std::numeric_limits<double>::infinity(),
+                                .error_tested = false},
                                energy_->pressure_space()->num_functions);
   return out;
 }
 
-void FieldTerm::start(Vector& y) const {
-  if (pressures_) pressures_->of(y) = energy_->pressure(c_.of(y));
+void FieldTerm::start(Vector& y, Vector* rate) const {
+  if (!pressures_) return;
+  const Vector c = c_.of(y);
+  pressures_->of(y) = energy_->pressure(c);
+  if (rate)
+    pressures_->of(*rate) = energy_->penalty_pressure(energy_->volume_gradient(c).times(c_.of(*rate)));
 }
 
 std::optional<double> FieldTerm::strain(const Vector& step) const {

@@ -13,7 +13,7 @@ namespace polyaffine {
 /// surface. Its pressures, if it has a pressure space, follow the displacement (p = κ M⁻¹ g), or in the mixed
 /// form are unknowns with the residual g − M p/κ that are solved apart: with D = ∂g/∂c
 ///   (K + κ DᵀM⁻¹D) δc = ρ_c + κ DᵀM⁻¹ρ_p,  δp = κ M⁻¹(D δc − ρ_p),
-/// so that stiff volumes cost no more of Newton's iterations than soft ones.
+/// so that stiff volumes cost no more of Newton's iterations than soft ones, and a tangent serves as long.
 class FieldTerm : public Term {
  public:
   using Scale = std::function<double(double t)>;
@@ -25,10 +25,8 @@ class FieldTerm : public Term {
 
   void add_residual(const At& at, Residual& out) const override;
   void add_tangent(const At& at, double alpha, Tangent& out) const override;
-  void condense(const At& at, double alpha, const Vector& rhs, Eigen::Ref<Vector> field) const override;
-  void recover(const At& at, double alpha, const Vector& rhs, Vector& step) const override;
   std::shared_ptr<const Term> mixed(StateLayout& layout) const override;
-  void start(Vector& y) const override;
+  void start(Vector& y, Vector* rate = nullptr) const override;
   std::optional<double> strain(const Vector& step) const override;
   void add_tables(std::vector<const FieldTable*>& out) const override;
 

@@ -25,16 +25,24 @@ void Inertia::add_residual(const At& at, Residual& out) const {
   v_.of(out.values) += at.rate_of(c_) - v_.of(at.y);
 }
 
+class Inertia::EliminatedVelocity : public Elimination {
+ public:
+  EliminatedVelocity(const Inertia& of, double alpha) : of_(of), alpha_(alpha) {}
+  void condense(const Vector& rhs, Eigen::Ref<Vector> field) const override {
+    field += alpha_ * of_.momentum(of_.v_.of(rhs));
+  }
+  void recover(const Vector& rhs, Vector& step) const override {
+    of_.v_.of(step) = alpha_ * of_.c_.of(step) - of_.v_.of(rhs);
+  }
+
+ private:
+  const Inertia& of_;
+  double alpha_;
+};
+
 void Inertia::add_tangent(const At& at, double alpha, Tangent& out) const {
   mass_.add_tangent({v_.of(at.y)}, out.field, alpha * alpha);
-}
-
-void Inertia::condense(const At&, double alpha, const Vector& rhs, Eigen::Ref<Vector> field) const {
-  field += alpha * momentum(v_.of(rhs));
-}
-
-void Inertia::recover(const At&, double alpha, const Vector& rhs, Vector& step) const {
-  v_.of(step) = alpha * c_.of(step) - v_.of(rhs);
+  out.eliminations.push_back(std::make_unique<EliminatedVelocity>(*this, alpha));
 }
 
 void Inertia::add_parameter_derivative(const std::string& parameter, const At& at, Vector& out) const {

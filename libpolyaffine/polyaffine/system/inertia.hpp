@@ -18,8 +18,6 @@ class Inertia : public Term {
 
   void add_residual(const At& at, Residual& out) const override;
   void add_tangent(const At& at, double alpha, Tangent& out) const override;
-  void condense(const At& at, double alpha, const Vector& rhs, Eigen::Ref<Vector> field) const override;
-  void recover(const At& at, double alpha, const Vector& rhs, Vector& step) const override;
   std::vector<std::string> parameters() const override { return {"density"}; }
   void add_parameter_derivative(const std::string& parameter, const At& at, Vector& out) const override;
   void add_tables(std::vector<const FieldTable*>& out) const override;
@@ -27,6 +25,7 @@ class Inertia : public Term {
   Unknowns velocity() const { return v_; }
 
  private:
+  class EliminatedVelocity;
   Vector momentum(const Vector& v) const { return mass_.evaluate({v}).gradient; }
 
   FieldEnergy mass_;  // ½ ∫ ρ |v|²

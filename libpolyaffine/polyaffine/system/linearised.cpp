@@ -29,6 +29,7 @@ bool Linearised::factorise(const At& at, double alpha) {
   ++cost_.factorisations;
   const auto n = static_cast<Eigen::Index>(system_.layout.few().size());
   Tangent tangent{system_.layout, linear_, {}, {}, Matrix::Zero(n, n)};
+  eliminations_.clear();
   {
     const Stopwatch watch(cost_.tangent_s);
     linear_.set_zero();
@@ -36,11 +37,8 @@ bool Linearised::factorise(const At& at, double alpha) {
       if (!term->is_met_exactly()) term->add_tangent(at, alpha, tangent);
   }
   const Stopwatch watch(cost_.factorisation_s);
-  t_ = at.t;
   alpha_ = alpha;
-  y_ = at.y;
-  moves_ = at.rate != nullptr;
-  if (moves_) rate_ = *at.rate;
+  eliminations_ = std::move(tangent.eliminations);
   if (system_.layout.field().size > 0 && !linear_.factorise()) return false;
   columns_ = std::move(tangent.columns);
   rows_ = std::move(tangent.rows);
@@ -111,11 +109,10 @@ bool Linearised::solve(const At& at, const Vector& rhs, Vector& step) {
   const Stopwatch watch(cost_.linear_solve_s);
   ++cost_.linear_solves;
   const Unknowns c = system_.layout.field();
-  const At there{t_, y_, moves_ ? &rate_ : nullptr};
   step = Vector::Zero(system_.size());
   if (c.size > 0) {
     Vector eliminated = Vector::Zero(c.size);
-    for (const auto& term : system_.terms) term->condense(there, alpha_, rhs, eliminated);
+    for (const auto& own : eliminations_) own->condense(rhs, eliminated);
     system_.restrict(eliminated);
     c.of(step) = linear_.solve(c.of(rhs) + eliminated).col(0);
   }
@@ -124,7 +121,7 @@ bool Linearised::solve(const At& at, const Vector& rhs, Vector& step) {
     for (std::size_t k = 0; k < columns_.size(); ++k) c.of(step) -= few[columns_[k].few] * responses_[k];
     step(places) = few;
   }
-  for (const auto& term : system_.terms) term->recover(there, alpha_, rhs, step);
+  for (const auto& own : eliminations_) own->recover(rhs, step);
   return step.allFinite();
 }
 

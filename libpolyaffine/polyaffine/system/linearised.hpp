@@ -39,9 +39,8 @@ class Linearised {
 
   const System& system_;
   LinearSystem& linear_;
-  double t_ = 0, alpha_ = 0;
-  Vector y_, rate_;  // where the tangent was taken
-  bool moves_ = false;
+  double alpha_ = 0;
+  std::vector<std::unique_ptr<const Elimination>> eliminations_;
   std::vector<Tangent::Line> columns_, rows_;
   std::vector<Vector> responses_;  // K⁻¹ of the columns
   Matrix corner_, few_;            // D, and with the field eliminated D − C K⁻¹ B

@@ -51,6 +51,10 @@ Vector pressure_mass(const PressureSpace& space, const FieldTable& table, const 
   for (std::size_t k = 0; k < table.blocks.size(); ++k) {
     const auto& [functions, values] = space.blocks[k];
     const auto w = table.weights.segment(table.blocks[k].first, table.blocks[k].count);
+    if (functions.size() == 1) {
+      out[functions[0]] += p[functions[0]] * values.row(0).cwiseAbs2().dot(w);
+      continue;
+    }
     const Vector at_points = w.array() * (values.transpose() * p(functions)).array();
     out(functions) += values * at_points;
   }
@@ -85,7 +89,10 @@ Matrix InverseMass::apply(const Matrix& x) const {
   if (!local_) return dense_ * x;
   Matrix out(x.rows(), x.cols());
   for (std::size_t k = 0; k < blocks_.size(); ++k)
-    out(functions_[k], Eigen::all) = blocks_[k] * x(functions_[k], Eigen::all);
+    if (functions_[k].size() == 1)
+      out.row(functions_[k][0]) = blocks_[k](0, 0) * x.row(functions_[k][0]);
+    else
+      out(functions_[k], Eigen::all) = blocks_[k] * x(functions_[k], Eigen::all);
   return out;
 }
 

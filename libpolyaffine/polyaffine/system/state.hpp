@@ -28,7 +28,8 @@ struct Block {
   std::string name;  ///< "displacement"
   std::string unit;  ///< "mm"
   Solved solved = Solved::few;
-  double absolute_tolerance = 0;  ///< of time integration, in the unit
+  /// Of time integration, in the unit; infinite: no norm sees the unknowns, which follow the others.
+  double absolute_tolerance = 0;
   /// False for multipliers of constraints (of index 2): their error is that of the others over the step, so
   /// that smaller steps do not lessen it (Brenan, Campbell and Petzold 1996, §5.2).
   bool error_tested = true;

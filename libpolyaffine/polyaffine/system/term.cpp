@@ -4,9 +4,6 @@
 
 namespace polyaffine {
 
-void Term::condense(const At&, double, const Vector&, Eigen::Ref<Vector>) const {}
-void Term::recover(const At&, double, const Vector&, Vector&) const {}
-
 void Term::add_parameter_derivative(const std::string& parameter, const At&, Vector&) const {
   throw std::invalid_argument("term: no parameter " + parameter);
 }
@@ -14,7 +11,7 @@ void Term::add_parameter_derivative(const std::string& parameter, const At&, Vec
 std::shared_ptr<const Term> Term::mixed(StateLayout&) const {
   return nullptr;
 }
-void Term::start(Vector&) const {}
+void Term::start(Vector&, Vector*) const {}
 
 std::optional<double> Term::strain(const Vector&) const {
   return {};

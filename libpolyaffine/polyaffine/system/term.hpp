@@ -36,6 +36,18 @@ struct Residual {
   bool admissible() const { return min_det > 0 && values.allFinite() && potential - potential == 0; }
 };
 
+/// Unknowns z that a term solves apart, eliminated from a tangent by it: Newton's corrections obey
+///   K δc = ρ_c + condense(ρ),  δz = recover(δc, ρ),
+/// ρ being the right-hand side (−R) and K the tangent of the field with z eliminated.
+class Elimination {
+ public:
+  virtual ~Elimination() = default;
+  /// Adds to the right-hand side of the field.
+  virtual void condense(const Vector& rhs, Eigen::Ref<Vector> field) const = 0;
+  /// Sets the unknowns z of the step.
+  virtual void recover(const Vector& rhs, Vector& step) const = 0;
+};
+
 /// ∂R/∂y + α ∂R/∂ẏ in the parts by which it is solved; every term adds its own. Rows and columns of `few`
 /// unknowns are numbered by few_index.
 struct Tangent {
@@ -45,9 +57,10 @@ struct Tangent {
     int few;
     Vector by_field;
   };
-  std::vector<Line> columns;  ///< ∂R_field/∂(a few unknown)
-  std::vector<Line> rows;     ///< ∂R_(a few unknown)/∂field
-  Matrix corner;              ///< few × few
+  std::vector<Line> columns;                                          ///< ∂R_field/∂(a few unknown)
+  std::vector<Line> rows;                                             ///< ∂R_(a few unknown)/∂field
+  Matrix corner;                                                      ///< few × few
+  std::vector<std::unique_ptr<const Elimination>> eliminations = {};  ///< none outlives its term
 
   int few_index(int unknown) const { return layout.few_index(unknown); }
 };
@@ -59,18 +72,12 @@ class Term {
   virtual ~Term() = default;
 
   virtual void add_residual(const At& at, Residual& out) const = 0;
-  /// Adds ∂R/∂y + α ∂R/∂ẏ (α in 1/ms).
+  /// Adds ∂R/∂y + α ∂R/∂ẏ (α in 1/ms), with an Elimination of the unknowns that the term solves apart.
   virtual void add_tangent(const At& at, double alpha, Tangent& out) const = 0;
 
   /// Whether the term knows but `few` unknowns and bends so sharply (valves) that Newton's method is to meet
   /// it as it is, instead of its tangent.
   virtual bool is_met_exactly() const { return false; }
-
-  /// For a term with unknowns z that are solved apart: from a tangent at `at` on, Newton's correction obeys
-  ///   K δc = ρ_c + condense(ρ),  δz = recover(δc, ρ),
-  /// ρ being the right-hand side (−R) and K the tangent of the field with z eliminated.
-  virtual void condense(const At& at, double alpha, const Vector& rhs, Eigen::Ref<Vector> field) const;
-  virtual void recover(const At& at, double alpha, const Vector& rhs, Vector& step) const;
 
   /// Names of the parameters that the term can be differentiated by.
   virtual std::vector<std::string> parameters() const { return {}; }
@@ -78,9 +85,10 @@ class Term {
   virtual void add_parameter_derivative(const std::string& parameter, const At& at, Vector& out) const;
 
   /// The term with independent pressures, in a block of its own that is added to the layout; null where it
-  /// has none. `start` sets them to those that belong to the displacement.
+  /// has none. `start` sets them, and their rates where something moves, to those that belong to the
+  /// displacement.
   virtual std::shared_ptr<const Term> mixed(StateLayout& layout) const;
-  virtual void start(Vector& y) const;
+  virtual void start(Vector& y, Vector* rate = nullptr) const;
 
   /// The largest change of a deformation gradient that a step of the field makes; none where the term is no
   /// solid.
