@@ -72,7 +72,7 @@ Group pack_group(const FunctionGroup& g, const PointBlock& block, int packs) {
 // The field of a group at one pack: adds to M.
 template <int d>
 void add_pack(const Group& g, int p, const double* c, Mat3Pack& M) {
-  const double* rows = g.by_pack.data() + static_cast<std::ptrdiff_t>(p) * g.num_functions * d * kLanes;
+  const double* rows = g.rows(p);
   Pack Y[3 * d] = {};
   for (int a = 0; a < g.num_functions; ++a, rows += d * kLanes) {
     const double* ca = c + 3 * static_cast<std::ptrdiff_t>(a);
@@ -99,7 +99,7 @@ void add_pack(const Group& g, int p, const double* c, Mat3Pack& M) {
 }
 
 void add_modes(const Group& g, int p, const double* c, Mat3Pack& M) {
-  const double* rows = g.by_pack.data() + static_cast<std::ptrdiff_t>(p) * g.num_functions * 9 * kLanes;
+  const double* rows = g.rows(p);
   for (int m = 0; m < g.num_functions; ++m, rows += 9 * kLanes)
 #pragma GCC unroll 9
     for (int e = 0; e < 9; ++e) M.m[e] += c[m] * load(rows + e * kLanes);
@@ -111,13 +111,13 @@ void add_pack(const Group& g, int p, const double* c, Mat3Pack& M) {
 }
 
 template <int d>
-void force_of_group(const Group& g, int packs, const Mat3Pack* S, double* force) {
+void force_of_group(const Group& g, PackRange packs, const Mat3Pack* S, double* force) {
   thread_local std::vector<double> total;
   total.assign(static_cast<std::size_t>(3 * g.num_functions * kLanes), 0.0);
-  const double* rows = g.by_pack.data();
-  for (int p = 0; p < packs; ++p) {
+  const double* rows = g.rows(packs.begin);
+  for (int p = packs.begin; p < packs.end; ++p, ++S) {
     Pack Y[3 * d];
-    pull_back(g, p, S[p], Y);
+    pull_back(g, p, *S, Y);
     double* sums = total.data();
     for (int a = 0; a < g.num_functions; ++a, rows += d * kLanes)
 #pragma GCC unroll 3
@@ -131,15 +131,15 @@ void force_of_group(const Group& g, int packs, const Mat3Pack* S, double* force)
   for (int i = 0; i < 3 * g.num_functions; ++i) force[i] = sum(load(total.data() + i * kLanes));
 }
 
-void force_of_modes(const Group& g, int packs, const Mat3Pack* S, double* force) {
+void force_of_modes(const Group& g, PackRange packs, const Mat3Pack* S, double* force) {
   thread_local std::vector<double> total;
   total.assign(static_cast<std::size_t>(g.num_functions * kLanes), 0.0);
-  const double* rows = g.by_pack.data();
-  for (int p = 0; p < packs; ++p)
+  const double* rows = g.rows(packs.begin);
+  for (int p = packs.begin; p < packs.end; ++p, ++S)
     for (int m = 0; m < g.num_functions; ++m, rows += 9 * kLanes) {
       Pack s = load(total.data() + m * kLanes);
 #pragma GCC unroll 9
-      for (int e = 0; e < 9; ++e) s += load(rows + e * kLanes) * S[p].m[e];
+      for (int e = 0; e < 9; ++e) s += load(rows + e * kLanes) * S->m[e];
       store(total.data() + m * kLanes, s);
     }
   for (int m = 0; m < g.num_functions; ++m) force[m] = sum(load(total.data() + m * kLanes));
@@ -176,42 +176,41 @@ Mat3Pack PackedBlock::base(int pack) const {
   return M;
 }
 
-void PackedBlock::field(const Vector& c, bool with_base, Mat3Pack* M) const {
+void PackedBlock::field(const Vector& c, bool with_base, PackRange packs, Mat3Pack* M) const {
   thread_local std::vector<double> own;
   gather(c, own);
-  for (int p = 0; p < num_packs(); ++p) {
-    M[p] = with_base ? base(p) : Mat3Pack{};
+  for (int p = packs.begin; p < packs.end; ++p, ++M) {
+    *M = with_base ? base(p) : Mat3Pack{};
     const double* at = own.data();
     for (const auto& g : groups_) {
-      add_pack(g, p, at, M[p]);
+      add_pack(g, p, at, *M);
       at += g.num_unknowns();
     }
   }
 }
 
-void PackedBlock::field_and_rate(const Vector& c, const Vector& rate, Mat3Pack* M, Mat3Pack* M_rate) const {
+void PackedBlock::field_and_rate(const Vector& c, const Vector& rate, PackRange packs, Mat3Pack* M,
+                                 Mat3Pack* M_rate) const {
   thread_local std::vector<double> own, own_rate;
   gather(c, own);
   gather(rate, own_rate);
-  for (int p = 0; p < num_packs(); ++p) {
-    M[p] = base(p);
-    M_rate[p] = Mat3Pack{};
+  for (int p = packs.begin; p < packs.end; ++p, ++M, ++M_rate) {
+    *M = base(p);
+    *M_rate = Mat3Pack{};
     std::ptrdiff_t at = 0;
     for (const auto& g : groups_) {
-      add_pack(g, p, own.data() + at, M[p]);
-      add_pack(g, p, own_rate.data() + at, M_rate[p]);
+      add_pack(g, p, own.data() + at, *M);
+      add_pack(g, p, own_rate.data() + at, *M_rate);
       at += g.num_unknowns();
     }
   }
 }
 
-void PackedBlock::force(const Mat3Pack* S, Matrix& out) const {
+void PackedBlock::force(const Mat3Pack* S, PackRange packs, Matrix& out) const {
   out.resize(3, static_cast<Eigen::Index>(functions_.size()));
   double* at = out.data();
   for (const auto& g : groups_) {
-    (g.components == 1 ? force_of_modes
-     : g.d == 4        ? force_of_group<4>
-                       : force_of_group<3>)(g, num_packs(), S, at);
+    (g.components == 1 ? force_of_modes : g.d == 4 ? force_of_group<4> : force_of_group<3>)(g, packs, S, at);
     at += g.num_unknowns();
   }
 }

@@ -7,6 +7,12 @@
 
 namespace polyaffine {
 
+/// Packs [begin, end) of a block.
+struct PackRange {
+  int begin = 0, end = 0;
+  int size() const { return end - begin; }
+};
+
 /// A block of a field table laid out for the inner loops: kLanes points side by side, so that the field, its
 /// transpose and the stiffness are sums of SIMD products. The last pack repeats the last point of the block
 /// where points are missing; those lanes have weight zero.
@@ -30,6 +36,10 @@ class PackedBlock {
     /// Entry (i, j) of stored block b of pack p: kLanes numbers from ((p · stored + b) 9 + i + 3j) kLanes.
     std::vector<double> lift;
     int num_unknowns() const { return components * num_functions; }
+    /// The rows at a pack and behind it.
+    const double* rows(int pack) const {
+      return by_pack.data() + static_cast<std::ptrdiff_t>(pack) * num_functions * d * kLanes;
+    }
     const double* lift_block(int pack, int J, int e) const {
       return lift.data() + (static_cast<std::ptrdiff_t>(pack) * stored + place[J][e]) * 9 * kLanes;
     }
@@ -38,6 +48,7 @@ class PackedBlock {
   PackedBlock(const PointBlock& block, const FieldTable& table);
 
   int num_packs() const { return static_cast<int>(points_.size()); }
+  PackRange all() const { return {0, num_packs()}; }
   PackPoints points(int pack) const { return points_[pack]; }
   [[gnu::always_inline]] Pack weight(int pack) const {
     return load(weights_.data() + kLanes * static_cast<std::ptrdiff_t>(pack));
@@ -46,12 +57,13 @@ class PackedBlock {
   const std::vector<int>& functions() const { return functions_; }
   const std::vector<Group>& groups() const { return groups_; }
 
-  /// M of every pack for the unknowns c; the constant M⁰ only if `with_base`.
-  void field(const Vector& c, bool with_base, Mat3Pack* M) const;
+  /// M of some packs for the unknowns c; the constant M⁰ only if `with_base`.
+  void field(const Vector& c, bool with_base, PackRange packs, Mat3Pack* M) const;
   /// M with M⁰ and its change by the rate of c, in one pass over the rows.
-  void field_and_rate(const Vector& c, const Vector& rate, Mat3Pack* M, Mat3Pack* M_rate) const;
-  /// The transpose: the 3 × functions force Σ_q S_q : ∂M_q/∂c of values S.
-  void force(const Mat3Pack* S, Matrix& out) const;
+  void field_and_rate(const Vector& c, const Vector& rate, PackRange packs, Mat3Pack* M,
+                      Mat3Pack* M_rate) const;
+  /// The transpose: the 3 × functions force Σ_q S_q : ∂M_q/∂c of values S at some packs.
+  void force(const Mat3Pack* S, PackRange packs, Matrix& out) const;
 
  private:
   void gather(const Vector& c, std::vector<double>& own) const;

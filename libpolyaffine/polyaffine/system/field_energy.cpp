@@ -10,7 +10,8 @@
 namespace polyaffine {
 namespace {
 
-constexpr int kChunk = 64;           // blocks whose local matrices are kept before they are added in order
+constexpr int kChunk = 64;  // blocks (slices) whose matrices (forces) are kept before they are added in order
+constexpr int kSlicePacks = 8;
 constexpr int kSerialPoints = 4096;  // points whose forces one thread computes sooner than it wakes another
 
 void scatter(const std::vector<int>& functions, const Matrix& local, Vector& global) {
@@ -104,47 +105,62 @@ FieldEnergy::FieldEnergy(FieldTable table, std::vector<std::shared_ptr<const Law
   if (pressure_) inverse_mass_ = InverseMass(*pressure_, table_);
   for (const auto& block : table_.blocks) {
     packed_.emplace_back(block, table_);
-    first_pack_.push_back(first_pack_.back() + packed_.back().num_packs());
+    const int packs = packed_.back().num_packs();
+    first_pack_.push_back(first_pack_.back() + packs);
+    for (int begin = 0; begin < packs; begin += kSlicePacks)
+      slices_.push_back({packed_.size() - 1, {begin, std::min(begin + kSlicePacks, packs)}});
+  }
+}
+
+// For the fields of a motion, and its pressures where they are given.
+FieldEnergy::Kinematics FieldEnergy::room(const Motion& motion) const {
+  Kinematics kin;
+  kin.F.resize(first_pack_.back());
+  if (feels_rate() && motion.rate) kin.rate.resize(first_pack_.back());
+  kin.J.resize(table_.num_points());
+  if (motion.pressure) kin.p = *motion.pressure;
+  return kin;
+}
+
+// F, its rate and J in a slice.
+void FieldEnergy::move(const Motion& motion, const Slice& slice, Kinematics& kin) const {
+  const PackedBlock& block = packed_[slice.block];
+  const int at = first_pack_[slice.block] + slice.packs.begin;
+  Mat3Pack* F = kin.F.data() + at;
+  if (kin.rate.empty())
+    block.field(motion.c, true, slice.packs, F);
+  else
+    block.field_and_rate(motion.c, *motion.rate, slice.packs, F, kin.rate.data() + at);
+  for (int p = slice.packs.begin; p < slice.packs.end; ++p, ++F) {
+    const Pack J = determinant(*F, cofactor(*F));
+    const auto [point, lanes] = block.points(p);
+    for (int lane = 0; lane < lanes; ++lane) kin.J[point + lane] = J[lane];
   }
 }
 
 FieldEnergy::Kinematics FieldEnergy::kinematics(const Motion& motion) const {
-  Kinematics kin;
-  const bool with_rate = feels_rate() && motion.rate;
-  kin.F.resize(first_pack_.back());
-  if (with_rate) kin.rate.resize(first_pack_.back());
-  kin.J.resize(table_.num_points());
-  for_range(table_.num_points() > kSerialPoints, 0, static_cast<int>(packed_.size()), [&](int k) {
-    const PackedBlock& block = packed_[k];
-    Mat3Pack* F = kin.F.data() + first_pack_[k];
-    if (with_rate)
-      block.field_and_rate(motion.c, *motion.rate, F, kin.rate.data() + first_pack_[k]);
-    else
-      block.field(motion.c, true, F);
-    for (int p = 0; p < block.num_packs(); ++p) {
-      const Pack J = determinant(F[p], cofactor(F[p]));
-      const auto [point, lanes] = block.points(p);
-      for (int lane = 0; lane < lanes; ++lane) kin.J[point + lane] = J[lane];
-    }
-  });
+  Kinematics kin = room(motion);
+  for_range(table_.num_points() > kSerialPoints, 0, static_cast<int>(slices_.size()),
+            [&](int k) { move(motion, slices_[k], kin); });
   if (!pressure_) return kin;
-
   kin.g = dilatation(*pressure_, table_, kin.J);
-  kin.p = motion.pressure ? *motion.pressure : penalty_pressure(kin.g);
+  if (!motion.pressure) kin.p = penalty_pressure(kin.g);
   return kin;
 }
 
-// Pressure at the points of a block, filled up to whole packs; empty without a pressure space.
-Vector FieldEnergy::point_pressure(const Vector& p, std::size_t k) const {
+// Pressure at the points of a slice, filled up to whole packs; empty without a pressure space.
+Vector FieldEnergy::point_pressure(const Vector& p, const Slice& slice) const {
   if (!pressure_) return {};
-  const auto& space = pressure_->blocks[k];
-  Vector out = Vector::Zero(kLanes * packed_[k].num_packs());
-  out.head(table_.blocks[k].count).noalias() = space.values.transpose() * p(space.functions);
+  const auto& space = pressure_->blocks[slice.block];
+  const int first = kLanes * slice.packs.begin;
+  const int count = std::min(kLanes * slice.packs.size(), table_.blocks[slice.block].count - first);
+  Vector out = Vector::Zero(kLanes * slice.packs.size());
+  out.head(count).noalias() = space.values.middleCols(first, count).transpose() * p(space.functions);
   return out;
 }
 
-// Response of all laws and of the pressure at one pack, times the integration weights.
-void FieldEnergy::respond(const Kinematics& kin, const Motion& motion, std::size_t k, const Vector& pressure,
+// Response of all laws and of the pressure (a number a lane) at one pack, times the integration weights.
+void FieldEnergy::respond(const Kinematics& kin, const Motion& motion, std::size_t k, const double* pressure,
                           int pack, bool tangent, double rate_factor, PackResponse& r) const {
   const PackPoints points = packed_[k].points(pack);
   const int at = first_pack_[k] + pack;
@@ -162,52 +178,54 @@ void FieldEnergy::respond(const Kinematics& kin, const Motion& motion, std::size
   }
   if (seen.rate)
     for (const auto& law : viscous_) law->respond(points, seen, tangent, r);
-  if (pressure.size() > 0)
-    add_volumetric(
-        kin.F[at], cofactor(kin.F[at]),
-        {broadcast(0), load(pressure.data() + kLanes * static_cast<std::ptrdiff_t>(pack)), broadcast(0)},
-        tangent, r);
+  if (pressure_)
+    add_volumetric(kin.F[at], cofactor(kin.F[at]), {broadcast(0), load(pressure), broadcast(0)}, tangent, r);
   scale(packed_[k].weight(pack), tangent, r);
 }
 
 EnergyValue FieldEnergy::evaluate(const Motion& motion) const {
-  const Kinematics kin = kinematics(motion);
+  // Pressures that follow the displacement are known after a pass over all points; where they are given, or
+  // are none, one pass does all.
+  const bool two_passes = pressure_ && !motion.pressure;
+  Kinematics kin = two_passes ? kinematics(motion) : room(motion);
   EnergyValue out;
   out.gradient = Vector::Zero(table_.num_unknowns());
-  out.min_det = kin.J.minCoeff();
-  out.max_det = kin.J.maxCoeff();
-  if (pressure_) out.value = (motion.pressure ? 1.0 : 0.5) * kin.g.dot(kin.p);
-  if (motion.pressure) {
-    out.pressure_gradient = kin.g;
-    if (!pressure_->incompressible) {
-      const Vector strain = pressure_mass(*pressure_, table_, kin.p) / pressure_->bulk_modulus;
-      out.value -= 0.5 * kin.p.dot(strain);
-      out.pressure_gradient -= strain;
-    }
-  }
   std::vector<double> energy(kChunk);
   std::vector<Matrix> force(kChunk);
   for_blocks(
-      table_.num_points() > kSerialPoints, static_cast<int>(packed_.size()),
+      table_.num_points() > kSerialPoints, static_cast<int>(slices_.size()),
       [&](int k, int slot) {
-        const PackedBlock& block = packed_[k];
-        const Vector pressure = point_pressure(kin.p, k);
-        thread_local std::vector<Mat3Pack> P;
-        P.resize(block.num_packs());
+        const Slice& slice = slices_[k];
+        const PackedBlock& block = packed_[slice.block];
+        if (!two_passes) move(motion, slice, kin);
+        const Vector pressure = point_pressure(kin.p, slice);
+        Mat3Pack P[kSlicePacks];
         Pack W = broadcast(0);
         PackResponse r;
-        for (int pack = 0; pack < block.num_packs(); ++pack) {
-          respond(kin, motion, k, pressure, pack, false, 0, r);
+        for (int i = 0; i < slice.packs.size(); ++i) {
+          const double* here = pressure.data() + kLanes * static_cast<std::ptrdiff_t>(i);
+          respond(kin, motion, slice.block, here, slice.packs.begin + i, false, 0, r);
           W += r.W;
-          std::copy(r.P, r.P + 9, P[pack].m);
+          std::copy(r.P, r.P + 9, P[i].m);
         }
         energy[slot] = sum(W);
-        block.force(P.data(), force[slot]);
+        block.force(P, slice.packs, force[slot]);
       },
       [&](int k, int slot) {
         out.value += energy[slot];
-        scatter(packed_[k].functions(), force[slot], out.gradient);
+        scatter(packed_[slices_[k].block].functions(), force[slot], out.gradient);
       });
+  out.min_det = kin.J.minCoeff();
+  out.max_det = kin.J.maxCoeff();
+  if (!pressure_) return out;
+  if (!two_passes) kin.g = dilatation(*pressure_, table_, kin.J);
+  out.value += (motion.pressure ? 1.0 : 0.5) * kin.g.dot(kin.p);
+  if (!motion.pressure) return out;
+  out.pressure_gradient = kin.g;
+  if (pressure_->incompressible) return out;
+  const Vector strain = pressure_mass(*pressure_, table_, kin.p) / pressure_->bulk_modulus;
+  out.value -= 0.5 * kin.p.dot(strain);
+  out.pressure_gradient -= strain;
   return out;
 }
 
@@ -221,11 +239,12 @@ PointTerms FieldEnergy::point_terms(const Motion& motion) const {
   for (std::size_t k = 0; k < packed_.size(); ++k) {
     const PackedBlock& block = packed_[k];
     const PointBlock& points = table_.blocks[k];
-    const Vector pressure = point_pressure(kin.p, k);
+    const Vector pressure = point_pressure(kin.p, whole(k));
     std::vector<Mat3Pack> P(block.num_packs());
     PackResponse r;
     for (int pack = 0; pack < block.num_packs(); ++pack) {
-      respond(kin, motion, k, pressure, pack, false, 0, r);
+      respond(kin, motion, k, pressure.data() + kLanes * static_cast<std::ptrdiff_t>(pack), pack, false, 0,
+              r);
       std::copy(r.P, r.P + 9, P[pack].m);
       const auto [point, lanes] = block.points(pack);
       for (int lane = 0; lane < lanes; ++lane) out.value[point + lane] = r.W[lane];
@@ -259,11 +278,12 @@ VolumeGradient FieldEnergy::add_tangent(const Motion& motion, LinearSystem& syst
       true, static_cast<int>(packed_.size()),
       [&](int k, int slot) {
         const PackedBlock& block = packed_[k];
-        const Vector pressure = point_pressure(kin.p, k);
+        const Vector pressure = point_pressure(kin.p, whole(static_cast<std::size_t>(k)));
         thread_local std::vector<PackResponse> responses;
         responses.resize(block.num_packs());
         for (int pack = 0; pack < block.num_packs(); ++pack) {
-          respond(kin, used, k, pressure, pack, true, rate_factor, responses[pack]);
+          respond(kin, used, k, pressure.data() + kLanes * static_cast<std::ptrdiff_t>(pack), pack, true,
+                  rate_factor, responses[pack]);
           mirror(responses[pack]);
         }
         if (!pressure_ && std::all_of(responses.begin(), responses.end(), without_tangent)) {
@@ -304,7 +324,7 @@ VolumeGradient FieldEnergy::volume_gradient(const Vector& c) const {
   for (std::size_t k = 0; k < packed_.size(); ++k) {
     const PackedBlock& block = packed_[k];
     S.resize(block.num_packs());
-    block.field(c, true, S.data());
+    block.field(c, true, block.all(), S.data());
     for (int pack = 0; pack < block.num_packs(); ++pack)
       S[pack] = scaled_cofactor(S[pack], block.weight(pack));
     Matrix rows;

@@ -74,11 +74,19 @@ class FieldEnergy {
   VolumeGradient volume_gradient(const Vector& c) const;
 
  private:
+  // Neighbouring packs of a block: few enough that their rows stay in the cache from F to the forces.
+  struct Slice {
+    std::size_t block;
+    PackRange packs;
+  };
   struct Kinematics;
+  Kinematics room(const Motion& motion) const;
+  void move(const Motion& motion, const Slice& slice, Kinematics& kin) const;
   Kinematics kinematics(const Motion& motion) const;
-  void respond(const Kinematics& kin, const Motion& motion, std::size_t k, const Vector& pressure, int pack,
+  void respond(const Kinematics& kin, const Motion& motion, std::size_t k, const double* pressure, int pack,
                bool tangent, double rate_factor, PackResponse& r) const;
-  Vector point_pressure(const Vector& p, std::size_t k) const;
+  Slice whole(std::size_t k) const { return {k, packed_[k].all()}; }
+  Vector point_pressure(const Vector& p, const Slice& slice) const;
 
   FieldTable table_;
   std::vector<std::shared_ptr<const Law>> laws_, viscous_;  // those that feel the rate apart
@@ -86,6 +94,7 @@ class FieldEnergy {
   InverseMass inverse_mass_;
   std::vector<PackedBlock> packed_;
   std::vector<int> first_pack_;  // of each block, and their number
+  std::vector<Slice> slices_;    // of all blocks
 };
 
 }  // namespace polyaffine

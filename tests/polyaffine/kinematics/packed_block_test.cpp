@@ -72,8 +72,8 @@ TEST_P(PackedBlocks, FieldIsThatOfTheTable) {
   const Vector c = random_vector(table.num_unknowns(), 1, 6);
   const Matrix field = evaluate_field(table, c);
   std::vector<Mat3Pack> M(fast.num_packs()), rate(fast.num_packs());
-  fast.field(c, true, M.data());
-  fast.field(c, false, rate.data());
+  fast.field(c, true, fast.all(), M.data());
+  fast.field(c, false, fast.all(), rate.data());
   for (int q = 0; q < block.count; ++q)
     for (int i = 0; i < 9; ++i) {
       EXPECT_NEAR(M[q / kLanes].m[i][q % kLanes], field(i, q), kRounding * 10);
@@ -89,7 +89,7 @@ TEST_P(PackedBlocks, ForceIsTheTransposeOfTheField) {
   Matrix expected = Matrix::Zero(3, block.num_functions()), force;
   const Matrix with_weights = S * table.weights.asDiagonal();
   add_field_transpose(block, with_weights.data(), expected);
-  fast.force(weighted(fast, packed(fast, S)).data(), force);
+  fast.force(weighted(fast, packed(fast, S)).data(), fast.all(), force);
   EXPECT_LT((force - expected).norm(), kRounding * expected.norm());
 }
 
