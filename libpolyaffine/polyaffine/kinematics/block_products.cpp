@@ -161,20 +161,21 @@ class GroupStiffness {
   std::vector<Pair> pairs_;
 };
 
-// Writes y_i · values, the rows (i, field) of a force product, at the points of pack `pack`, the `slot`-th of
-// the chunk: y = LᵀS pulled back to the group, `values` (fields, padded to packs × points) the factors of S.
-void fill_force_rows(const Group& g, int pack, int slot, const Mat3Pack& S, const Matrix& values,
-                     TileProduct& product) {
-  const auto packs = static_cast<int>(values.rows()) / kLanes;
-  Pack Y[kMostCoordinates];
-  pull_back(g, pack, S, Y);
-  for (int lane = 0; lane < kLanes; ++lane) {
-    const double* at = values.col(kLanes * pack + lane).data();
-    for (int e = 0; e < g.d; ++e)
-      for (int i = 0; i < g.components; ++i) {
-        const Pack y = broadcast(Y[i + g.components * e][lane]);
-        for (int b = 0; b < packs; ++b)
-          store(product.row(i * packs + b, (kLanes * slot + lane) * g.d + e), y * load(at + b * kLanes));
+using PointForces = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+// The force of S on each unknown of a group, a row, at each point; d numbers a function of `rows`.
+template <int components, int d>
+void point_forces(const Group& g, int packs, const Mat3Pack* S, Eigen::Ref<PointForces> out) {
+  const double* rows = g.rows(0);
+  for (int p = 0; p < packs; ++p) {
+    Pack Y[kMostCoordinates];
+    pull_back(g, p, S[p], Y);
+    for (int a = 0; a < g.num_functions; ++a, rows += d * kLanes)
+      for (int i = 0; i < components; ++i) {
+        Pack sum = load(rows) * Y[i];
+#pragma GCC unroll 8
+        for (int e = 1; e < d; ++e) sum += load(rows + e * kLanes) * Y[i + components * e];
+        store(&out(components * a + i, kLanes * p), sum);
       }
   }
 }
@@ -200,30 +201,19 @@ void block_stiffness(const PackedBlock& block, const PackResponse* responses, Ma
 }
 
 void block_force_rows(const PackedBlock& block, const Mat3Pack* S, const Matrix& values, Matrix& rows) {
-  const auto n = static_cast<int>(values.rows());
-  const int packs = (n + kLanes - 1) / kLanes;
-  rows.resize(n, static_cast<Eigen::Index>(3 * block.functions().size()));
-  Matrix padded = Matrix::Zero(packs * kLanes, kLanes * block.num_packs());
-  padded.topLeftCorner(n, values.cols()) = values;
-  TileProduct& product = workspace();
+  const auto n = static_cast<Eigen::Index>(3 * block.functions().size());
+  const int packs = block.num_packs();
+  thread_local PointForces forces;
+  if (forces.rows() < n || forces.cols() < kLanes * packs) forces.resize(n, kLanes * packs);
   int first = 0;
   for (const auto& g : block.groups()) {
-    product.start(g.components * packs, g.padded);
-    for (int s = 0; s < g.components * packs; ++s) product.need_column(s, g.num_functions - 1);
-    for (int begin = 0; begin < block.num_packs(); begin += kChunkPacks) {
-      const int count = std::min(kChunkPacks, block.num_packs() - begin);
-      product.start_chunk(count * kLanes * g.d);
-      for (int slot = 0; slot < count; ++slot)
-        fill_force_rows(g, begin + slot, slot, S[begin + slot], padded, product);
-      product.multiply(g.by_point.data() + static_cast<std::ptrdiff_t>(g.padded) * g.d * kLanes * begin,
-                       g.padded);
-    }
-    for (int a = 0; a < g.num_functions; ++a)
-      for (int i = 0; i < g.components; ++i)
-        for (int b = 0; b < n; ++b)
-          rows(b, first + g.components * a + i) = product.entries(i * packs + b / kLanes, a)[b % kLanes];
+    const auto own = forces.block(first, 0, g.num_unknowns(), kLanes * packs);
+    (g.components == 1 ? point_forces<1, 9>
+     : g.d == 4        ? point_forces<3, 4>
+                       : point_forces<3, 3>)(g, packs, S, own);
     first += g.num_unknowns();
   }
+  rows.noalias() = values * forces.topLeftCorner(n, values.cols()).transpose();
 }
 
 }  // namespace polyaffine
