@@ -150,7 +150,9 @@ bool run_beat(const CoupledHeart& heart, polyaffine::LinearSystem& linear, const
   std::string stop;
   while (stop.empty() && ida.time() < end - 1e-9 * period) {
     const double from = ida.time();
-    if (ida.step(end) == polyaffine::DaeStatus::failed) {
+    // The tension bends at the onset: a step across it would show end diastole contracting.
+    const double limit = from < begin + onset_ms ? std::min(begin + onset_ms, end) : end;
+    if (ida.step(limit) == polyaffine::DaeStatus::failed) {
       stop = ida.failure();
       break;
     }

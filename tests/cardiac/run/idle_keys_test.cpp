@@ -19,8 +19,8 @@ namespace {
 using namespace protocol;
 using Settings = std::vector<std::string>;
 
-// Whether numbers change shows in the first steps.
-constexpr int kSteps = 20;
+// Whether numbers change shows in the first steps, some of them after the onset of contraction.
+constexpr int kSteps = 40;
 
 /// What a run computes in its first steps, to be compared bit by bit.
 std::vector<double> computed(const Protocol& protocol, const std::shared_ptr<const cardiac::Anatomy>& anatomy,
@@ -139,6 +139,7 @@ std::string other_value(const std::string& path, const Key& key, const Json& val
                                                          {"activation.site_segments", "[9]"},
                                                          {"activation.sites_mm", "[[7.0, 0.0, 0.0]]"},
                                                          {"time.max_step_ms", "0.1"},
+                                                         {"time.heart_rate_bpm", "240.0"},
                                                          {"region.segments", "[8]"}};
   // They are there where regions differ; elsewhere other keys that play no part may forbid them.
   if (path == "reduction.border_functions") {

@@ -26,14 +26,14 @@ TEST(Memory, TwelveBeatsNeedNoMoreThanThree) {
   const HeartPath path = run_beats(ventricle, protocol, control);
   ASSERT_EQ(in_use.size(), 12);
   const double state = static_cast<double>(sizeof(HeartState) + sizeof(double) * path.steps.front().c.size());
-  // The steps of a beat may be some more than those of another; a vector lost in each would be 9 beats of
-  // them, more than four hundred.
+  // The steps of a beat may be some tens more than those of another; a vector lost in each would be 9 beats
+  // of them, more than four hundred.
   const double growth = in_use.back() - in_use[2];
   std::cout << "heap before beat 3: " << in_use[2] / 1024 << " kB, before beat 12: " << in_use.back() / 1024
             << " kB; a state takes " << state / 1024 << " kB, a beat has " << path.steps.size()
             << " steps and " << path.outputs.size() << " outputs\n";
   EXPECT_GT(path.steps.size(), 50);
-  EXPECT_LT(growth, 10 * state);
+  EXPECT_LT(growth, 40 * state);
 }
 
 }  // namespace
