@@ -87,6 +87,7 @@ BenchRow make_row(const BeatContext& context, const Beat& reference, const Beat&
   const polyaffine::Vector rest = polyaffine::Vector::Zero(beat.model().num_coefficients());
   row.cavity_ratio = beat.model().cavity_volume(beat.end_systole) / beat.model().cavity_volume(rest);
   row.errors = yardstick.errors(beat.model(), beat.end_systole);
+  row.same_tets = row.errors;
   row.beat = beat_errors(reference, beat);
   row.speedup_over_fem = reference.solve_s / beat.solve_s;
   if (reduced && beat.solve_s < reference.solve_s)

@@ -19,6 +19,8 @@ struct ModelChoice {
   std::size_t mesh;
   std::vector<std::string> settings;
   std::string own{};  // a further setting that the row tells
+
+  bool is_reduced() const { return method == "polyaffine"; }
 };
 
 ModelChoice full_order(int order, std::size_t mesh) {
@@ -93,10 +95,12 @@ Plan heart_plan() {
   return plan;
 }
 
-Plan make_plan(const BenchScene& scene, bool quick) {
+Plan make_plan(const BenchScene& scene, const BenchContext& context) {
   if (scene.group == kCompliance) return compliance_plan();
-  if (scene.other_heart && !quick) return heart_plan();
-  return quick ? quick_plan() : whole_plan();
+  Plan plan = context.quick ? quick_plan() : scene.other_heart ? heart_plan() : whole_plan();
+  if (std::ranges::find(context.presets, "tuned") != context.presets.end())
+    plan.models.push_back({"polyaffine", context.quick ? 0UL : 1UL, {"reduction.preset=tuned"}});
+  return plan;
 }
 
 CurvedMesh ellipsoid_mesh(const TruncatedEllipsoid& shape, const MeshChoice& choice,
@@ -120,7 +124,8 @@ CurvedMesh make_mesh(const BenchScene& scene, const MeshChoice& choice, const Be
 }
 
 BenchRow make_row(const BenchScene& scene, const std::string& method, const BenchModel& model,
-                  const BenchModel::Solution& solution, const Yardstick& yardstick) {
+                  const BenchModel::Solution& solution, const Yardstick& yardstick,
+                  const Yardstick* same_tets) {
   BenchRow row;
   row.scene = scene.name;
   row.heart = scene.to_wall       ? "asymmetric_ellipsoid"
@@ -142,6 +147,7 @@ BenchRow make_row(const BenchScene& scene, const std::string& method, const Benc
   if (!solution.converged) return row;
   row.cavity_ratio = model.cavity_ratio(solution.c);
   row.errors = yardstick.errors(model.ventricle(), solution.c);
+  if (same_tets) row.same_tets = same_tets->errors(model.ventricle(), solution.c);
   return row;
 }
 
@@ -164,11 +170,16 @@ std::string reference_text(const BenchRow& row) {
 
 SceneResult run_scene(const BenchScene& scene, const BenchContext& context) {
   const polyaffine::SingleThread single_thread;
-  const Plan plan = make_plan(scene, context.quick);
+  const Plan plan = make_plan(scene, context);
   SceneResult result{scene.name, scene.title, "", {}};
   std::vector<std::optional<CurvedMesh>> meshes(plan.meshes.size());
-  std::unique_ptr<BenchModel> reference;
-  std::optional<Yardstick> yardstick;
+  // The solution on quadratic elements of a mesh, for the models on its tets; the first is the reference.
+  struct Truth {
+    std::unique_ptr<BenchModel> model;
+    std::optional<Yardstick> yardstick;
+  };
+  std::vector<Truth> truths(plan.meshes.size());
+  const auto& yardstick = truths[plan.models.front().mesh].yardstick;
   for (const ModelChoice& choice : plan.models) {
     context.progress(scene.name + ": " + choice.method,
                      static_cast<double>(result.rows.size()) / static_cast<double>(plan.models.size()));
@@ -177,23 +188,24 @@ SceneResult run_scene(const BenchScene& scene, const BenchContext& context) {
     std::vector<std::string> settings = choice.settings;
     std::string told = choice.own;
     if (!choice.own.empty()) settings.push_back(choice.own);
-    if (choice.method == "polyaffine")
+    if (choice.is_reduced())
       for (const std::string& setting : context.settings) {
         settings.push_back(setting);
         told += (told.empty() ? "" : "; ") + setting;
       }
     auto model = std::make_unique<BenchModel>(scene, *mesh, settings);
     const BenchModel::Solution solution = BenchModel::timed([&] { return model->solve(); });
-    if (!reference) {
-      if (!solution.converged)
-        throw polyaffine::ComputationError("bench: the reference solution of " + scene.name +
-                                           " did not converge");
-      yardstick.emplace(model->ventricle(), solution.c);
-    }
-    result.rows.push_back(make_row(scene, choice.method, *model, solution, *yardstick));
+    Truth& truth = truths[choice.mesh];
+    const bool is_truth = choice.method == "fem_p2" && solution.converged;
+    if (is_truth) truth.yardstick.emplace(model->ventricle(), solution.c);
+    if (!yardstick)
+      throw polyaffine::ComputationError("bench: the reference solution of " + scene.name +
+                                         " did not converge");
+    result.rows.push_back(make_row(scene, choice.method, *model, solution, *yardstick,
+                                   truth.yardstick ? &*truth.yardstick : nullptr));
     result.rows.back().settings = told;
     context.on_row(result.rows.back());
-    if (!reference) reference = std::move(model);
+    if (is_truth) truth.model = std::move(model);
   }
   fill_speedups(result.rows);
   result.reference = reference_text(result.rows.front());

@@ -29,6 +29,7 @@ struct BenchRow {
   double solve_s = 0;       ///< the whole path of loads from zero; median of some where one is short
   double cavity_ratio = 0;  ///< deformed over reference volume
   ModelErrors errors;
+  std::optional<ModelErrors> same_tets{};  ///< against quadratic elements on the same tets
   double speedup_over_fem = std::numeric_limits<double>::quiet_NaN();
   int load_steps = 0, newton_iterations = 0;
   std::optional<BeatErrors> beat{};
@@ -56,7 +57,8 @@ struct BenchContext {
   bool quick = false;  ///< smaller meshes, fewer models
   std::function<polyaffine::TetMesh(const TruncatedEllipsoid& shape, double size_mm)> mesh_ellipsoid;
   std::function<polyaffine::TetMesh(const polyaffine::Vec3& size_mm, double edge_mm)> mesh_box;
-  std::vector<std::string> presets{"fast", "accurate"};  ///< of the reduced models on real hearts
+  std::vector<std::string> presets{
+      "fast", "accurate"};            ///< of the reduced models on real hearts; "tuned" on ellipsoids too
   std::vector<std::string> settings;  ///< key=value for the reduced models, on top of everything else
   std::function<void(const std::string& what, double fraction)> progress = [](const auto&, double) {};
   std::function<void(const BenchRow&)> on_row = [](const auto&) {};

@@ -54,7 +54,7 @@ std::shared_ptr<const TunedModel> tuned_model(const std::shared_ptr<const Anatom
   tuning.on_round = control.on_round;
   tuning.interrupted = [&control] { return stop_wanted(control); };
   TunedModel out = tune(anatomy, scene, tuning_plan(path, model, scene), tuning);
-  if (out.reached) keep_model(*anatomy, scene, out);  // one that did not, a larger budget may better
+  keep_model(*anatomy, scene, out);
   return std::make_shared<const TunedModel>(std::move(out));
 }
 

@@ -198,9 +198,19 @@ std::string tuned_key(const Anatomy& anatomy, const Scene& scene) {
   return structure_key(anatomy, scene) + ' ' + rule_key(anatomy, scene) + ' ' + key.dump();
 }
 
+namespace {
+
+// One that did not reach its accuracy serves those who give it no more time.
+std::string unreached_key(const Anatomy& anatomy, const Scene& scene) {
+  return tuned_key(anatomy, scene) + " in " + std::to_string(scene.reduction.budget_s) + " s";
+}
+
+}  // namespace
+
 std::optional<TunedModel> cached_model(const Anatomy& anatomy, const Scene& scene) {
   if (anatomy.fibres) return std::nullopt;
-  const auto stored = polyaffine::read_cache(kKind, tuned_key(anatomy, scene));
+  auto stored = polyaffine::read_cache(kKind, tuned_key(anatomy, scene));
+  if (!stored) stored = polyaffine::read_cache(kKind, unreached_key(anatomy, scene));
   if (!stored) return std::nullopt;
   try {
     TunedModel out = polyaffine::value_of_archive<TunedModel>(*stored, kCached, "cache");
@@ -216,7 +226,8 @@ void keep_model(const Anatomy& anatomy, const Scene& scene, const TunedModel& mo
   ArchiveWriter writer;
   TunedModel copy = model;
   archive(writer, copy);
-  polyaffine::write_cache(kKind, tuned_key(anatomy, scene), writer.file(kCached));
+  polyaffine::write_cache(kKind, model.reached ? tuned_key(anatomy, scene) : unreached_key(anatomy, scene),
+                          writer.file(kCached));
 }
 
 void complete(const Anatomy& anatomy, const Scene& scene, TunedModel& model) {

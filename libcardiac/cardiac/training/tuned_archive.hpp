@@ -35,7 +35,8 @@ std::string structure_key(const Anatomy& anatomy, const Scene& scene);
 /// What tells the tuned models of two scenes apart: the structure and all that their training reads.
 std::string tuned_key(const Anatomy& anatomy, const Scene& scene);
 
-/// The model of a scene from the cache (polyaffine::read_cache), if it is there. Hearts with fibres of a file
+/// The model of a scene from the cache (polyaffine::read_cache), if it is there; one that did not reach its
+/// accuracy only for the budget that it was learned in. Hearts with fibres of a file
 /// or of a program are not kept there.
 std::optional<TunedModel> cached_model(const Anatomy& anatomy, const Scene& scene);
 void keep_model(const Anatomy& anatomy, const Scene& scene, const TunedModel& model);

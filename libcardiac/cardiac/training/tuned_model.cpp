@@ -328,6 +328,10 @@ int full_order_solves(const TunedModel* model) {
   return model ? model->rounds.back().full_order_solves : 0;
 }
 
+double learning_seconds(const TunedModel* model) {
+  return model ? model->rounds.back().seconds : 0;
+}
+
 double outside(const TunedModel& model, const Vector& c) {
   constexpr double kMargin = 0.1;
   const Vector at = model.coordinates * c;

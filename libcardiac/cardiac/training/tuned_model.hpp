@@ -59,6 +59,9 @@ struct TunedModel {
 /// Full-order solves that a model was learned from; 0 without one.
 int full_order_solves(const TunedModel* model);
 
+/// How long it was learned; 0 without one.
+double learning_seconds(const TunedModel* model);
+
 /// How many times the accuracy a model may be off where every segment has another tension and stiffness.
 inline constexpr double kSegmentsAllowance = 3;
 
