@@ -82,6 +82,7 @@ SceneResult beat(const BenchOptions& options) {
     return anatomy;
   };
   context.settings = options.settings;
+  context.presets = options.presets;
   ProgressLine line(options.quiet);
   context.progress = [&](const std::string& what, double fraction) { line(what, fraction); };
   if (!options.quiet) context.on_row = print_row;
@@ -121,7 +122,6 @@ void bench(const BenchOptions& options) {
     if (options.scene != scene.group) continue;
     ProgressLine line(options.quiet);
     context.progress = [&](const std::string& what, double fraction) { line(what, fraction); };
-    context.presets = options.presets;
     if (const auto result = run_heart_scene(scene, hearts, context)) add(*result);
   }
 }
@@ -159,7 +159,7 @@ void add_bench_command(CLI::App& app) {
       ->add_option("--hearts", options->hearts,
                    "folder of hearts of other origin (default: CARDIAC_HEARTS of the environment, ../shared)")
       ->type_name("DIR");
-  command->add_option("--presets", options->presets, "reduced models of beats and real hearts")
+  command->add_option("--presets", options->presets, "reduced models: fast, accurate, tuned")
       ->delimiter(',')
       ->capture_default_str();
   command->add_flag("--quick", options->quick, "small meshes, fewer models");

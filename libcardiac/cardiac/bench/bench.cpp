@@ -18,9 +18,8 @@ struct ModelChoice {
   std::string method;
   std::size_t mesh;
   std::vector<std::string> settings;
-  std::string own{};  // a further setting that the row tells
-
-  bool is_reduced() const { return method == "polyaffine"; }
+  std::string own{};     // a further setting that the row tells
+  std::string preset{};  // of a reduced model
 };
 
 ModelChoice full_order(int order, std::size_t mesh) {
@@ -34,7 +33,9 @@ ModelChoice reduced(const std::string& preset, const std::string& ring_nodes, st
   return {"polyaffine",
           mesh,
           {"reduction.preset=" + preset, "reduction.ring_nodes=" + ring_nodes,
-           "reduction.integration=" + integration}};
+           "reduction.integration=" + integration},
+          {},
+          preset};
 }
 
 // The apex node and these: 5, 17 (one a segment), 29 and 61 control nodes.
@@ -98,8 +99,14 @@ Plan heart_plan() {
 Plan make_plan(const BenchScene& scene, const BenchContext& context) {
   if (scene.group == kCompliance) return compliance_plan();
   Plan plan = context.quick ? quick_plan() : scene.other_heart ? heart_plan() : whole_plan();
-  if (std::ranges::find(context.presets, "tuned") != context.presets.end())
-    plan.models.push_back({"polyaffine", context.quick ? 0UL : 1UL, {"reduction.preset=tuned"}});
+  const auto asked_for = [&](const std::string& preset) {
+    return std::ranges::find(context.presets, preset) != context.presets.end();
+  };
+  std::erase_if(plan.models, [&](const ModelChoice& choice) {
+    return !choice.preset.empty() && !asked_for(choice.preset);
+  });
+  if (asked_for("tuned"))
+    plan.models.push_back({"polyaffine", context.quick ? 0UL : 1UL, {"reduction.preset=tuned"}, {}, "tuned"});
   return plan;
 }
 
@@ -188,7 +195,7 @@ SceneResult run_scene(const BenchScene& scene, const BenchContext& context) {
     std::vector<std::string> settings = choice.settings;
     std::string told = choice.own;
     if (!choice.own.empty()) settings.push_back(choice.own);
-    if (choice.is_reduced())
+    if (!choice.preset.empty())
       for (const std::string& setting : context.settings) {
         settings.push_back(setting);
         told += (told.empty() ? "" : "; ") + setting;

@@ -57,8 +57,7 @@ struct BenchContext {
   bool quick = false;  ///< smaller meshes, fewer models
   std::function<polyaffine::TetMesh(const TruncatedEllipsoid& shape, double size_mm)> mesh_ellipsoid;
   std::function<polyaffine::TetMesh(const polyaffine::Vec3& size_mm, double edge_mm)> mesh_box;
-  std::vector<std::string> presets{
-      "fast", "accurate"};            ///< of the reduced models on real hearts; "tuned" on ellipsoids too
+  std::vector<std::string> presets{"fast", "accurate"};  ///< of the reduced models
   std::vector<std::string> settings;  ///< key=value for the reduced models, on top of everything else
   std::function<void(const std::string& what, double fraction)> progress = [](const auto&, double) {};
   std::function<void(const BenchRow&)> on_row = [](const auto&) {};

@@ -7,11 +7,10 @@
 #include <iomanip>
 #include <sstream>
 
-#include <cardiac/run/build_ventricle.hpp>
 #include <cardiac/strain/segment_strain.hpp>
+#include <cardiac/training/tuned_model.hpp>
 #include <polyaffine/core/error.hpp>
-#include <polyaffine/kinematics/lagrange.hpp>
-#include <polyaffine/solve/load_stepping.hpp>
+#include <polyaffine/kinematics/nested_basis.hpp>
 
 namespace cardiac {
 
@@ -21,64 +20,43 @@ using polyaffine::Vector;
 
 namespace {
 
-// Values of the reduced displacement at the nodes of the elements: their coefficients.
-Vector nodal_displacement(const polyaffine::LagrangeBasis& elements, const polyaffine::Basis& reduced,
-                          const Vector& c) {
-  std::vector<int> tet(elements.num_functions());
-  Eigen::Matrix4Xd barycentric(4, elements.num_functions());
-  const Eigen::Matrix4Xd corners = elements.node_barycentric();
-  for (int t = 0; t < static_cast<int>(elements.elements().cols()); ++t)
-    for (Eigen::Index k = 0; k < corners.cols(); ++k) {
-      tet[elements.elements()(k, t)] = t;
-      barycentric.col(elements.elements()(k, t)) = corners.col(k);
-    }
-  return polyaffine::DisplacementMap(reduced, tet, barycentric).apply(c).reshaped();
-}
-
 struct Comparison {
   Matrix F_reduced, F_full;  // at the integration points of the full-order model
-  double displacement_error = 0, volume_error = 0, wall_time = 0;
+  double displacement_error = 0, volume_error = 0;
 };
 
-// Told with the share of one instant's solution that is done.
-using InstantProgress = std::function<void(const std::string& what, double fraction)>;
-
-std::function<void(int, double)> newton_progress(const InstantProgress& progress, double tolerance) {
-  return [&progress, tolerance, first = 0.0](int iteration, double residual) mutable {
-    if (iteration == 0) first = residual;
-    const double decades = first > tolerance ? std::log(first / residual) / std::log(first / tolerance) : 0;
-    std::ostringstream what;
-    what << "Newton step " << iteration + 1 << ", residual " << std::setprecision(1) << residual;
-    progress(what.str(), std::clamp(decades, 0.0, 1.0));
-  };
+TrainingLoad load_of(const HeartState& state, double clock_ms) {
+  TrainingLoad out;
+  out.pressures_kPa = state.pressures_kPa;
+  out.clock_ms = clock_ms;
+  return out;
 }
 
-Comparison compare(const Ventricle& reduced, const Ventricle& full, const HeartState& state, double clock_ms,
-                   const InstantProgress& progress) {
-  const auto start = std::chrono::steady_clock::now();
+// The truth under the load of a state: from the state itself where its model knows pressures of elements
+// (others would start from wild ones), else from the truth before it, or raised from zero.
+FullState truth_of(const TrainingLoad& load, const HeartState& state, const Ventricle& reduced,
+                   FullOrder& full, const std::optional<FullState>& before) {
+  std::optional<FullState> out;
+  if (reduced.tuned) {
+    FullState guess{
+        load, dynamic_cast<const polyaffine::NestedBasis&>(*reduced.discretisation.basis).nodal(state.c), {}};
+    if (reduced.wall->pressure_space())
+      guess.pressure = reduced.tuned->space.pressures.transpose() * reduced.wall->pressure(state.c);
+    out = full.solve(load, &guess);
+  } else {
+    out = before ? full.follow(load, *before) : full.solve(load, nullptr);
+  }
+  if (!out)
+    throw polyaffine::ComputationError("verification: the full-order model has no equilibrium at " +
+                                       load.name);
+  return *out;
+}
+
+Comparison compare(const Ventricle& reduced, const FullOrder& order, const HeartState& state,
+                   const Vector& c) {
+  const Ventricle full = order.ventricle({});
   const auto& elements = dynamic_cast<const polyaffine::LagrangeBasis&>(*full.discretisation.basis);
   const auto& points = full.discretisation.points;
-  const Vector tension = full.contraction ? full.contraction->tension(clock_ms) : Vector();
-  const polyaffine::System problem = loaded_ventricle(full, {state.pressures_kPa, tension});
-  const auto linear = problem.make_linear();
-  Vector c = nodal_displacement(elements, *reduced.discretisation.basis, state.c);
-  polyaffine::NewtonOptions options;
-  options.tolerance = 1e-7;
-  options.max_iterations = 60;
-  options.on_iteration = newton_progress(progress, options.tolerance);
-  auto report = polyaffine::newton(problem, 1, *linear, c, options);
-  if (!report.converged()) {
-    c.setZero();
-    double reached = 0;
-    polyaffine::LoadOptions steps;
-    steps.on_step = [&](double load, const Vector&) { reached = load; };
-    steps.newton.on_iteration = [&](int, double) { progress("load raised from zero", reached); };
-    const auto ramp = polyaffine::load_stepping(problem, *linear, c, steps);
-    if (!ramp.converged())
-      throw polyaffine::ComputationError("verification: the full-order problem stopped at " +
-                                         std::to_string(100 * ramp.reached) +
-                                         " % of the load: " + polyaffine::to_string(ramp.last.reason));
-  }
   Comparison out;
   out.F_full = polyaffine::evaluate_field(full.wall->table(), c);
   out.F_reduced = polyaffine::evaluate_field(
@@ -98,7 +76,6 @@ Comparison compare(const Ventricle& reduced, const Ventricle& full, const HeartS
     const double off = reduced.cavity_volume(state.c, k) / full.cavity_volume(c, k) - 1;
     if (std::abs(off) > std::abs(out.volume_error)) out.volume_error = off;
   }
-  out.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return out;
 }
 
@@ -111,18 +88,25 @@ std::vector<VerificationInstant> verify_path(const Ventricle& reduced, const Sce
   };
   tell("full order: elements", 0);
   const KeyStates key = key_states(path, scene);
-  const Ventricle full = build_ventricle(reduced.anatomy, scene, scene::Method::fem);
-  const SegmentGauge gauge(*reduced.anatomy->coordinates, full.discretisation.points);
+  FullOrder full(reduced.anatomy, scene);
+  const SegmentGauge gauge(*reduced.anatomy->coordinates, full.discretisation().points);
   std::vector<VerificationInstant> out;
+  std::optional<FullState> truth;
   Matrix F_reduced_ed, F_full_ed;
   for (const auto& [name, instant_state] : {std::pair{"ED", &key.ed}, std::pair{"ES", &key.es}}) {
     const HeartState& state = *instant_state;
-    const auto done = static_cast<double>(out.size());
-    const InstantProgress at_instant = [&, instant = std::string(name)](const std::string& what,
-                                                                        double share) {
-      tell("full order at " + instant + ": " + what, (done + share) / 2);
+    const auto start = std::chrono::steady_clock::now();
+    full.watch = [&, at = std::string(name), done = static_cast<double>(out.size())](int iteration,
+                                                                                     double residual) {
+      std::ostringstream what;
+      what << "full order at " << at << ": Newton step " << iteration + 1 << ", residual "
+           << std::setprecision(1) << residual;
+      tell(what.str(), done / 2);
     };
-    const Comparison at = compare(reduced, full, state, path.beat_start_ms + state.time_ms, at_instant);
+    TrainingLoad load = load_of(state, path.beat_start_ms + state.time_ms);
+    load.name = name;
+    truth = truth_of(load, state, reduced, full, truth);
+    const Comparison at = compare(reduced, full, state, truth->u);
     if (out.empty()) {
       F_reduced_ed = at.F_reduced;
       F_full_ed = at.F_full;
@@ -138,7 +122,7 @@ std::vector<VerificationInstant> verify_path(const Ventricle& reduced, const Sce
     instant.time_ms = state.time_ms;
     instant.displacement_error_percent = 100 * at.displacement_error;
     instant.volume_error_percent = 100 * at.volume_error;
-    instant.wall_time_s = at.wall_time;
+    instant.wall_time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     for (std::size_t k = 0; k < a.size(); ++k)
       instant.max_segment_strain_error = std::max(
           {instant.max_segment_strain_error, std::abs(a[k].longitudinal - b[k].longitudinal),

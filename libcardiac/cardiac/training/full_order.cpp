@@ -17,6 +17,9 @@ namespace {
 // Far below any error of a reduced model.
 constexpr double kTolerance = 1e-7;
 
+// Share to which a step with an old tangent must lower the residuals; a new one costs twenty such steps.
+constexpr double kContraction = 0.3;
+
 // ∇u by which a linear answer may move a point: beyond it stiff fibres would make wild forces.
 constexpr double kLargestStep = 0.4;
 
@@ -34,14 +37,11 @@ WallLoad no_load(const Ventricle& ventricle) {
 
 // Newton's method in the mixed form from a displacement and the pressures of the elements. A reduced model's
 // displacement would make wild pressures by itself.
-bool newton_from(const FullState& near, const System& system, polyaffine::LinearSystem& linear, Vector& u,
-                 Vector& pressure) {
+bool newton_from(const FullState& near, const System& system, polyaffine::LinearSystem& linear,
+                 const polyaffine::NewtonOptions& options, Vector& u, Vector& pressure) {
   const System mixed = polyaffine::mixed_form(system);
   Vector y = polyaffine::mixed_start(mixed, 1, near.u);
   if (y.size() == near.u.size() + near.pressure.size()) y.tail(near.pressure.size()) = near.pressure;
-  polyaffine::NewtonOptions options;
-  options.tolerance = options.defect_tolerance = kTolerance;
-  options.contraction = 0.3;
   polyaffine::Newton newton(mixed, linear);
   if (!newton.solve(1, polyaffine::rest_state(mixed, 1, y), y, options).converged()) return false;
   u = y.head(near.u.size());
@@ -75,10 +75,17 @@ Ventricle FullOrder::ventricle(const TrainingLoad& load) const {
   return assemble_ventricle(anatomy_, with_regions(scene_, load), discretisation_);
 }
 
+polyaffine::NewtonOptions FullOrder::newton_options() const {
+  polyaffine::NewtonOptions out;
+  out.tolerance = out.defect_tolerance = kTolerance;
+  out.contraction = kContraction;
+  out.on_iteration = watch;
+  return out;
+}
+
 bool FullOrder::step_to(const System& system, Vector& u) {
   polyaffine::LoadOptions options;
-  options.newton.tolerance = options.newton.defect_tolerance = kTolerance;
-  options.newton.contraction = 0.3;
+  options.newton = newton_options();
   return polyaffine::load_stepping(system, *linear_, u, options).converged();
 }
 
@@ -87,7 +94,7 @@ std::optional<FullState> FullOrder::solve(const TrainingLoad& load, const FullSt
   const Ventricle v = ventricle(load);
   const System system = loaded_ventricle(v, wall_load(v, load));
   FullState out{load, {}, {}};
-  if (guess && newton_from(*guess, system, *linear_, out.u, out.pressure)) return out;
+  if (guess && newton_from(*guess, system, *linear_, newton_options(), out.u, out.pressure)) return out;
   out.u = Vector::Zero(v.num_coefficients());
   if (!step_to(system, out.u)) return std::nullopt;
   if (v.wall->pressure_space()) out.pressure = v.wall->pressure(out.u);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <cardiac/model/ventricle.hpp>
+#include <polyaffine/solve/newton.hpp>
 
 namespace cardiac {
 
@@ -38,6 +39,7 @@ class FullOrder {
  public:
   FullOrder(std::shared_ptr<const Anatomy> anatomy, const Scene& scene);
 
+  /// Of the model of the scene as it is.
   const Discretisation& discretisation() const { return discretisation_; }
   const Scene& scene() const { return scene_; }
   const std::shared_ptr<const Anatomy>& anatomy() const { return anatomy_; }
@@ -60,7 +62,11 @@ class FullOrder {
 
   int solves() const { return solves_; }
 
+  /// Called before each step of Newton's method; may throw.
+  std::function<void(int iteration, double residual)> watch{};
+
  private:
+  polyaffine::NewtonOptions newton_options() const;
   bool step_to(const polyaffine::System& system, polyaffine::Vector& u);
 
   std::shared_ptr<const Anatomy> anatomy_;
