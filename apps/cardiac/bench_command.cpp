@@ -82,7 +82,6 @@ SceneResult beat(const BenchOptions& options) {
     return anatomy;
   };
   context.settings = options.settings;
-  context.presets = options.presets;
   ProgressLine line(options.quiet);
   context.progress = [&](const std::string& what, double fraction) { line(what, fraction); };
   if (!options.quiet) context.on_row = print_row;
@@ -96,6 +95,7 @@ void bench(const BenchOptions& options) {
   context.mesh_ellipsoid = mesh_truncated_ellipsoid;
   context.mesh_box = mesh_box;
   context.settings = options.settings;
+  context.presets = options.presets;
   if (!options.quiet) {
     print_header();
     context.on_row = print_row;

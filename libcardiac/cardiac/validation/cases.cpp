@@ -4,6 +4,7 @@
 #include <cardiac/validation/ellipsoid.hpp>
 #include <cardiac/validation/extreme.hpp>
 #include <cardiac/validation/land.hpp>
+#include <cardiac/validation/tuned.hpp>
 
 #include "cardiac/validation/check.hpp"
 
@@ -18,6 +19,8 @@ const std::vector<ValidationCase>& validation_cases() {
       {"circulation", "windkessel and closed loop without a wall, published numbers", validate_circulation},
       {"biventricle", "two ventricles, reduced against full order, and a beat in the closed loop",
        validate_biventricle},
+      {"tuned", "a tuned model under 30 other protocols: its errors, and those that it tells of itself",
+       validate_tuned},
       {"extreme", "stiff and extreme scenes, reduced and full order: within bounds or stopped with a reason",
        validate_extreme}};
   return cases;
