@@ -50,6 +50,11 @@ WallState wall_state(const polyaffine::Basis& basis, const Vector& c, const std:
       (in_axes ? local : plain) += sample.N[i] * ca;
       (in_axes ? local_gradient : plain_gradient) += ca * sample.gradient.col(i).transpose();
     }
+    for (const auto& modes : sample.modes) {
+      const Vec3 ca = c.segment<3>(3 * modes.function);
+      plain += modes.value * ca;
+      plain_gradient += (modes.gradient * ca).reshaped(3, 3);
+    }
     Mat3 F = Mat3::Identity() + plain_gradient + sample.Q * local_gradient;
     for (int J = 0; J < 3; ++J) F.col(J) += sample.dQ[J] * local;
     out.u.col(q) = plain + sample.Q * local;

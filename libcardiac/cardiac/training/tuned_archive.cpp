@@ -84,7 +84,7 @@ void members(Archive& a, TunedModel& x) {
   a.section("space", [&] { spaces(a, x); });
   a.section("check", [&] { a(x.check.pressure_mass, x.check.factor); });
   a.section("points", [&] { a(x.wall, x.cavities, x.epicardium, x.pressure_mass); });
-  a.section("training", [&] { a(x.coordinates, x.least, x.largest, x.rounds, x.reached); });
+  a.section("training", [&] { a(x.rounds, x.reached); });
 }
 
 template <class Archive>
@@ -117,8 +117,7 @@ void check(ArchiveReader& a, const TunedModel& x) {
     return good;
   };
   bool good = inside(x.wall) && !x.rounds.empty() && x.pressure_mass.rows() == x.space.pressures.rows() &&
-              x.pressure_mass.cols() == x.space.pressures.rows() && x.coordinates.rows() == x.least.size() &&
-              x.largest.size() == x.least.size();
+              x.pressure_mass.cols() == x.space.pressures.rows();
   for (const CavitySurface& cavity : x.cavities) good = good && inside(cavity.points);
   good = good && x.check.pressure_mass.rows() == x.check.space.pressures.rows() &&
          x.check.pressure_mass.cols() == x.check.space.pressures.rows();

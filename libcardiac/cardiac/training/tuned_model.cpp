@@ -1,6 +1,5 @@
 #include "cardiac/training/tuned_model.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -16,7 +15,6 @@ using polyaffine::Vector;
 
 namespace {
 
-// Shares of the accuracy (of displacement in L2, where a tolerance is of its gradient).
 // Shares of the accuracy (of displacement in L2, where a tolerance is of its gradient).
 constexpr double kPathShare = 0.3, kNeighbourShare = 0.8, kRuleShare = 0.4;
 // Pressures want to be fewer than displacements: with modes alone more of them hold the wall back.
@@ -34,31 +32,6 @@ constexpr double kPathMatters = 2;
 constexpr double kLimited = 0.3;
 // The functions of its error check: tolerances over those of the model, and how many more there may be.
 constexpr double kFiner = 0.25, kMore = 1.6;
-
-// How different two loads are, in pressure and tension over the largest of the plan.
-class LoadDistance {
- public:
-  LoadDistance(const std::vector<TrainingLoad>& loads, const Ventricle& ventricle) : ventricle_(ventricle) {
-    for (const TrainingLoad& load : loads) {
-      if (load.pressures_kPa.size() > 0)
-        pressure_ = std::max(pressure_, load.pressures_kPa.cwiseAbs().maxCoeff());
-      tension_ = std::max(tension_, mean_tension(load));
-    }
-  }
-  double operator()(const TrainingLoad& a, const TrainingLoad& b) const {
-    double sum = std::abs(mean_tension(a) - mean_tension(b)) / tension_;
-    for (Eigen::Index k = 0; k < a.pressures_kPa.size(); ++k)
-      sum += std::abs(a.pressures_kPa[k] - b.pressures_kPa[k]) / pressure_;
-    return sum + (a.regions.empty() == b.regions.empty() ? 0 : 1);
-  }
-  double mean_tension(const TrainingLoad& load) const {
-    return ventricle_.contraction ? load.level * ventricle_.contraction->tension(load.clock_ms).mean() : 0;
-  }
-
- private:
-  const Ventricle& ventricle_;
-  double pressure_ = 1e-9, tension_ = 1e-9;
-};
 
 // A load held out: the truth, what the model made of it (none where it failed), the nearest of its functions.
 struct Comparison {
@@ -88,13 +61,14 @@ class Tuning {
         full_(anatomy, scene),
         modes_(*anatomy, scene),
         plain_(full_.ventricle({})),
-        distance_(plan.path, plain_) {}
+        states_(full_, plan.path, [this](const std::string& what) { tell(what); }) {}
 
   TunedModel run() {
-    solve_path();
+    states_.solve_path();
     for (const TuningPlan::Changes& changes : plan_.neighbours) {
-      const auto state = std::ranges::find(path_, changes.of, [](const FullState& s) { return s.load.name; });
-      if (state != path_.end()) add_linear_answers(*state, changes.regions);
+      const auto& path = states_.path();
+      const auto state = std::ranges::find(path, changes.of, [](const FullState& s) { return s.load.name; });
+      if (state != path.end()) states_.add_answers(*state, changes.regions);
     }
     const double accuracy = control_.accuracy_percent / 100;
     const double pressure = full_.scene().reduction.affine_frames ? kPressureShareOfFrames : kPressureShare;
@@ -133,73 +107,25 @@ class Tuning {
     if (control_.progress) control_.progress(what, std::min(1.0, seconds() / control_.budget_s));
   }
 
-  const FullState* nearest(const TrainingLoad& load) const {
-    const FullState* best = nullptr;
-    for (const FullState& s : path_)
-      if (!best || distance_(s.load, load) < distance_(best->load, load)) best = &s;
-    return best;
-  }
-
-  void solve_path() {
-    for (const TrainingLoad& load : plan_.path) {
-      tell("full order: " + load.name);
-      auto state = path_.empty() ? full_.solve(load, nullptr) : full_.follow(load, *nearest(load));
-      if (state)
-        path_.push_back(std::move(*state));
-      else if (path_.empty())
-        throw polyaffine::ComputationError(
-            "tuning: the full-order model has no equilibrium under its first load, " + load.name);
-    }
-  }
-
-  void add_linear_answers(const FullState& of, const std::vector<scene::RegionOverride>& changes) {
-    tell("answers of " + of.load.name + " to changes of the segments");
-    for (FullState& answer : full_.linear_answers(of, changes)) neighbours_.push_back(std::move(answer));
-  }
-
-  HeartModes::States states() const {
-    HeartModes::States out;
-    for (const auto* list : {&path_, &neighbours_})
-      for (const FullState& s : *list) out.push_back(&s);
-    return out;
-  }
-
   void build(const Tolerances& tolerances, int round, TunedModel& model) {
-    const HeartModes::States all = states();
-    const HeartModes::States path(all.begin(), all.begin() + std::ssize(path_));
+    const HeartModes::States all = states_.all();
+    const HeartModes::States path(all.begin(), all.begin() + std::ssize(states_.path()));
     model.space = modes_.with_modes(modes_.affine(), path, tolerances.path, kMostModes);
     model.space = modes_.with_modes(std::move(model.space), all, tolerances.neighbours, kMostModes);
     model.space = modes_.with_pressures(std::move(model.space), all, tolerances.pressures, kMostModes);
     tell("points for " + std::to_string(model.space.num_modes) + " modes");
     NestedRuleTraining training(full_, modes_, model.space);
-    for (const auto* states : {&path_, &neighbours_})
-      for (const FullState& state : *states) {
-        tell("round " + std::to_string(round + 1) + ": forces of " + state.load.name);
-        training.add(state, states == &path_ ? kPathMatters : 1);
-      }
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      tell("round " + std::to_string(round + 1) + ": forces of " + all[k]->load.name);
+      training.add(*all[k], k < path.size() ? kPathMatters : 1);
+    }
     tell("round " + std::to_string(round + 1) + ": choice of points");
     const Discretisation kept = with_rule(training.nested(), training.select(tolerances.rule));
     model.wall = kept.points;
     model.cavities = kept.cavities;
     model.epicardium = kept.epicardium_points;
     model.pressure_mass = kept.pressure_mass;
-    find_range(training.metric(), model);
     metric_ = training.metric();
-  }
-
-  void find_range(const Matrix& metric, TunedModel& model) const {
-    const auto count = std::ssize(path_) + std::ssize(neighbours_);
-    const Matrix root = metric.llt().matrixU();
-    Matrix states(metric.rows(), count);
-    Eigen::Index s = 0;
-    for (const auto* list : {&path_, &neighbours_})
-      for (const FullState& state : *list)
-        states.col(s++) = root * modes_.nearest(model.space, metric, state.u);
-    const Eigen::BDCSVD<Matrix> svd(states, Eigen::ComputeThinU);
-    const Matrix along = svd.matrixU().transpose() * states;
-    model.coordinates = svd.matrixU().transpose() * root;
-    model.least = along.rowwise().minCoeff().cwiseMin(0);
-    model.largest = along.rowwise().maxCoeff().cwiseMax(0);
   }
 
   std::vector<Comparison> hold_against(const std::vector<TrainingLoad>& loads, TunedModel& model, int round) {
@@ -242,7 +168,7 @@ class Tuning {
         near->pressure = model.space.pressures.transpose() * out.model->pressure;
       }
     }
-    auto truth = full_.solve(load, near ? &*near : nearest(load));
+    auto truth = full_.solve(load, near ? &*near : states_.nearest(load));
     if (!truth) return std::nullopt;
     out.truth = std::move(*truth);
     const Vector& u = out.truth.u;
@@ -262,9 +188,9 @@ class Tuning {
     ErrorCheck& check = model.check;
     check = {};
     const int most = static_cast<int>(kMore * model.space.num_modes);
-    check.space = modes_.with_modes(model.space, states(), kFiner * tolerances.neighbours, most);
+    check.space = modes_.with_modes(model.space, states_.all(), kFiner * tolerances.neighbours, most);
     check.space =
-        modes_.with_pressures(std::move(check.space), states(), kFiner * tolerances.pressures,
+        modes_.with_pressures(std::move(check.space), states_.all(), kFiner * tolerances.pressures,
                               static_cast<int>(kMore * static_cast<double>(model.space.pressures.rows())));
     check.pressure_mass =
         nested_discretisation(*full_.anatomy(), full_.scene(), check.space, full_.discretisation())
@@ -291,8 +217,8 @@ class Tuning {
       if (other_segments && 100 * c.displacement > kSegmentsAllowance * control_.accuracy_percent &&
           c.best > kLimited * c.displacement)
         for (const TuningPlan::Changes& changes : plan_.neighbours)
-          if (c.truth.load.name.starts_with(changes.of)) add_linear_answers(c.truth, changes.regions);
-      (other_segments ? neighbours_ : path_).push_back(c.truth);
+          if (c.truth.load.name.starts_with(changes.of)) states_.add_answers(c.truth, changes.regions);
+      states_.add(c.truth);
     }
   }
 
@@ -316,8 +242,7 @@ class Tuning {
   FullOrder full_;
   HeartModes modes_;
   Ventricle plain_;
-  LoadDistance distance_;
-  std::vector<FullState> path_, neighbours_;
+  TrainingStates states_;
   Matrix metric_;
 };
 
@@ -334,14 +259,6 @@ int full_order_solves(const TunedModel* model) {
 
 double learning_seconds(const TunedModel* model) {
   return model ? model->rounds.back().seconds : 0;
-}
-
-double outside(const TunedModel& model, const Vector& c) {
-  constexpr double kMargin = 0.1;
-  const Vector at = model.coordinates * c;
-  const Vector margin = kMargin * (model.largest - model.least);
-  const Vector inside = at.cwiseMax(model.least - margin).cwiseMin(model.largest + margin);
-  return at.norm() > 0 ? (at - inside).norm() / at.norm() : 0;
 }
 
 namespace {

@@ -7,6 +7,7 @@
 
 #include <cardiac/training/error_check.hpp>
 #include <cardiac/training/nested_rule.hpp>
+#include <cardiac/training/training_states.hpp>
 
 namespace cardiac {
 
@@ -47,10 +48,6 @@ struct TunedModel {
   std::vector<CavitySurface> cavities;
   polyaffine::SurfacePoints epicardium;
   polyaffine::Matrix pressure_mass;
-  /// Where the states that it learned from lie: coordinates of coefficients c, an orthonormal set in the
-  /// metric of ‖∇u‖, and their least and largest values.
-  polyaffine::Matrix coordinates;
-  polyaffine::Vector least, largest;
   ErrorCheck check;
   std::vector<TuningRound> rounds;  ///< up to that of the model, the best there was
   bool reached = false;             ///< the accuracy that was asked for
@@ -64,10 +61,6 @@ double learning_seconds(const TunedModel* model);
 
 /// How many times the accuracy a model may be off where every segment has another tension and stiffness.
 inline constexpr double kSegmentsAllowance = 3;
-
-/// How far coefficients lie outside what the model learned from: the distance from the box of its states,
-/// a tenth of its width left around it, over the size of c.
-double outside(const TunedModel& model, const polyaffine::Vector& c);
 
 /// How a tuning is bounded and watched.
 struct TuningControl {
