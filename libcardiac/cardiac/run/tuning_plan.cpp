@@ -12,6 +12,7 @@ namespace cardiac {
 namespace {
 
 constexpr int kInstants = 8;
+constexpr int kRandomLoads = 2;  // of each of two states, held out in a round
 constexpr const char* kFilled = "end diastole";
 constexpr const char* kEmptied = "end systole";
 // Of a segment in the linear answers: far enough to be seen beside the state, near enough to be linear.
@@ -146,8 +147,11 @@ TuningPlan tuning_plan(const HeartPath& path, const Ventricle& untrained, const 
       if (s->pressures_kPa.size() == 0 || s->pressures_kPa.norm() > 0)
         loads.push_back(load_at(at_time(*s), *s, begin));
     loads.push_back(load_at("end diastole, other pressure", filled, begin, 0.5 + share));
-    loads.push_back(random_segments(load_at(kFilled, filled, begin), segments, false, random));
-    if (contracts) loads.push_back(random_segments(load_at(kEmptied, key.es, begin), segments, true, random));
+    for (int k = 0; k < kRandomLoads; ++k) {
+      loads.push_back(random_segments(load_at(kFilled, filled, begin), segments, false, random));
+      if (contracts)
+        loads.push_back(random_segments(load_at(kEmptied, key.es, begin), segments, true, random));
+    }
     return loads;
   };
   return out;

@@ -16,7 +16,8 @@ namespace cardiac {
 struct ErrorCheck {
   NestedSpace space;  ///< the model's modes and pressures are its first
   polyaffine::Matrix pressure_mass;
-  double factor = 1;  ///< true over estimated error, the geometric mean over states held out
+  double factor =
+      1;  ///< true over estimated error, the geometric mean over held-out states of other segments
 };
 
 /// A state of a nested model under a load.

@@ -56,6 +56,11 @@ void TrainingStates::add_answers(const FullState& of, const std::vector<scene::R
   for (FullState& answer : full_.linear_answers(of, changes)) neighbours_.push_back(std::move(answer));
 }
 
+const FullState* TrainingStates::named(const std::string& load) const {
+  const auto state = std::ranges::find(path_, load, [](const FullState& s) { return s.load.name; });
+  return state == path_.end() ? nullptr : &*state;
+}
+
 std::vector<const FullState*> TrainingStates::all() const {
   std::vector<const FullState*> out;
   for (const auto* list : {&path_, &neighbours_})

@@ -26,6 +26,8 @@ class TrainingStates {
 
   const std::vector<FullState>& path() const { return path_; }
   const std::vector<FullState>& neighbours() const { return neighbours_; }
+  /// The state of the path under the load of this name; null if there is none.
+  const FullState* named(const std::string& load) const;
   /// The path, then the neighbours.
   std::vector<const FullState*> all() const;
   /// The state of the path under the most similar load, in pressure and tension over the largest of the
