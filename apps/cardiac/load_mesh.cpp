@@ -8,6 +8,7 @@
 #include <cardiac/protocol/build_anatomy.hpp>
 #include <cardiac/protocol/names.hpp>
 #include <cardiac/reduction/axes_check.hpp>
+#include <cardiac/scene/presets.hpp>
 #include <polyaffine/core/error.hpp>
 
 #include "biventricle_mesh.hpp"
@@ -118,13 +119,14 @@ Anatomy load_anatomy(const Protocol& protocol, std::vector<std::string>& warning
 
 namespace {
 
-// Whether one ventricle leaves its reduced model no choice but Cartesian axes, for which the presets have
-// functions of their own.
+// Whether one ventricle leaves its reduced model no choice but Cartesian axes, for which the untrained
+// presets have functions of their own.
 bool turns_to_cartesian(const Anatomy& anatomy, const Protocol& protocol,
                         std::vector<std::string>& warnings) {
   const auto& reduction = protocol.reduction;
-  return reduction.method == protocol::Method::polyaffine && reduction.weights == protocol::Weights::tents &&
-         reduction.axes == protocol::Axes::automatic && anatomy.coordinates->right() == nullptr &&
+  return reduction.method == protocol::Method::polyaffine && !is_tuned(protocol) &&
+         reduction.weights == protocol::Weights::tents && reduction.axes == protocol::Axes::automatic &&
+         anatomy.coordinates->right() == nullptr &&
          axes_of(anatomy, protocol, warnings) == protocol::Axes::cartesian;
 }
 

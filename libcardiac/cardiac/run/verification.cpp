@@ -25,6 +25,9 @@ struct Comparison {
   double displacement_error = 0, volume_error = 0;
 };
 
+// Of Newton's method in an instant; how many it takes is not known before.
+constexpr double kUsualSteps = 15;
+
 TrainingLoad load_of(const HeartState& state, double clock_ms) {
   TrainingLoad out;
   out.pressures_kPa = state.pressures_kPa;
@@ -96,12 +99,14 @@ std::vector<VerificationInstant> verify_path(const Ventricle& reduced, const Sce
   for (const auto& [name, instant_state] : {std::pair{"ED", &key.ed}, std::pair{"ES", &key.es}}) {
     const HeartState& state = *instant_state;
     const auto start = std::chrono::steady_clock::now();
+    int steps = 0;
     full.watch = [&, at = std::string(name), done = static_cast<double>(out.size())](int iteration,
                                                                                      double residual) {
       std::ostringstream what;
       what << "full order at " << at << ": Newton step " << iteration + 1 << ", residual "
            << std::setprecision(1) << residual;
-      tell(what.str(), done / 2);
+      ++steps;
+      tell(what.str(), (done + steps / (steps + kUsualSteps)) / 2);
     };
     TrainingLoad load = load_of(state, path.beat_start_ms + state.time_ms);
     load.name = name;

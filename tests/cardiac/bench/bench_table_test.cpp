@@ -72,7 +72,7 @@ TEST(BenchTable, LeavesWhatDidNotConvergeWithoutErrors) {
 TEST(BenchTable, QuotesSettings) {
   auto results = two_rows();
   results[0].rows[1].settings = "reduction.enrichment=[\"tt\"]";
-  EXPECT_THAT(bench_csv(results), HasSubstr(",\"reduction.enrichment=[\"\"tt\"\"]\",,,,,,0,,,,\n"));
+  EXPECT_THAT(bench_csv(results), HasSubstr(",\"reduction.enrichment=[\"\"tt\"\"]\",,,,,,0,,,,,,,\n"));
 }
 
 TEST(BenchMarkdown, HasARowAModelAsWideAsItsHeader) {
