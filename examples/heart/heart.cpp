@@ -10,8 +10,8 @@
 // freely and with dashpots on its epicardium, as the pericardium holds it.
 //
 //     $ heart
-//     free: 3 beats, EDV 118 mL, EF 58 %, peak pressure 122 mmHg, GLS -14 %
-//     held: 2 beats, EDV 114 mL, EF 57 %, peak pressure 115 mmHg, GLS -13 %
+//     free: 3 beats, EDV 118 mL, EF 58 %, peak pressure 121 mmHg, GLS -14 %
+//     held: 2 beats, EDV 114 mL, EF 57 %, peak pressure 116 mmHg, GLS -13 %
 
 #include <cstdio>
 #include <cstdlib>
