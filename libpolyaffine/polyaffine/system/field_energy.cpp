@@ -34,6 +34,11 @@ Mat3Pack scaled_cofactor(const Mat3Pack& F, const Pack& factor) {
   return out;
 }
 
+// The numbers of a pack; null where there are none.
+const double* of_pack(const Vector& values, int pack) {
+  return values.size() > 0 ? values.data() + kLanes * static_cast<std::ptrdiff_t>(pack) : nullptr;
+}
+
 template <class Work>
 void for_range(bool parallel, int begin, int end, const Work& work) {
   if (parallel)
@@ -203,8 +208,7 @@ EnergyValue FieldEnergy::evaluate(const Motion& motion) const {
         Pack W = broadcast(0);
         PackResponse r;
         for (int i = 0; i < slice.packs.size(); ++i) {
-          const double* here = pressure.data() + kLanes * static_cast<std::ptrdiff_t>(i);
-          respond(kin, motion, slice.block, here, slice.packs.begin + i, false, 0, r);
+          respond(kin, motion, slice.block, of_pack(pressure, i), slice.packs.begin + i, false, 0, r);
           W += r.W;
           std::copy(r.P, r.P + 9, P[i].m);
         }
@@ -243,8 +247,7 @@ PointTerms FieldEnergy::point_terms(const Motion& motion) const {
     std::vector<Mat3Pack> P(block.num_packs());
     PackResponse r;
     for (int pack = 0; pack < block.num_packs(); ++pack) {
-      respond(kin, motion, k, pressure.data() + kLanes * static_cast<std::ptrdiff_t>(pack), pack, false, 0,
-              r);
+      respond(kin, motion, k, of_pack(pressure, pack), pack, false, 0, r);
       std::copy(r.P, r.P + 9, P[pack].m);
       const auto [point, lanes] = block.points(pack);
       for (int lane = 0; lane < lanes; ++lane) out.value[point + lane] = r.W[lane];
@@ -282,8 +285,7 @@ VolumeGradient FieldEnergy::add_tangent(const Motion& motion, LinearSystem& syst
         thread_local std::vector<PackResponse> responses;
         responses.resize(block.num_packs());
         for (int pack = 0; pack < block.num_packs(); ++pack) {
-          respond(kin, used, k, pressure.data() + kLanes * static_cast<std::ptrdiff_t>(pack), pack, true,
-                  rate_factor, responses[pack]);
+          respond(kin, used, k, of_pack(pressure, pack), pack, true, rate_factor, responses[pack]);
           mirror(responses[pack]);
         }
         if (!pressure_ && std::all_of(responses.begin(), responses.end(), without_tangent)) {
