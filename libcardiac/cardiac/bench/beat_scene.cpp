@@ -77,7 +77,8 @@ BenchRow make_row(const BeatContext& context, const Beat& reference, const Beat&
   row.mesh_tets = beat.model().anatomy->mesh.num_tets();
   row.dofs = beat.model().discretisation.num_unknowns;
   row.integration_points = beat.model().wall->table().num_points();
-  row.setup_s = beat.setup_s;
+  // A tuned model may have come from the cache.
+  row.setup_s = std::max(beat.setup_s, learning_seconds(beat.model().tuned.get()));
   row.setup_full_order_solves = full_order_solves(beat.model().tuned.get());
   row.solve_s = beat.solve_s;
   row.load_steps = beat.path().time_steps;

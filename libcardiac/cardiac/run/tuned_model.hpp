@@ -13,7 +13,7 @@ std::shared_ptr<const TunedModel> tuned_model(const std::shared_ptr<const Anatom
                                               const Scene& scene, const RunControl& control = {});
 
 /// The errors of displacement that a tuned model estimates of itself at end diastole and end systole
-/// (estimated_error). Empty without a path, or where its training found no stable state.
+/// (estimated_error), an instant at which there is no estimate left out. Empty without a path.
 std::vector<EstimatedError> estimated_errors(const Ventricle& model, const Scene& scene,
                                              const HeartPath& path);
 

@@ -1,9 +1,8 @@
 #include "cardiac/training/error_check.hpp"
 
+#include <cardiac/training/heart_modes.hpp>
 #include <polyaffine/kinematics/nested_basis.hpp>
 #include <polyaffine/system/linearised.hpp>
-
-#include <cardiac/training/heart_modes.hpp>
 
 namespace cardiac {
 

@@ -179,7 +179,7 @@ class Tuning {
     return out;
   }
 
-  // The functions, answers and factor of the model's error check. What was held out has not been learned yet.
+  // The functions and the factor of the model's error check. What was held out has not been learned yet.
   void teach_check(const Tolerances& tolerances, const std::vector<Comparison>& held_out, TunedModel& model) {
     tell("error check");
     ErrorCheck& check = model.check;
@@ -223,9 +223,7 @@ class Tuning {
   void refine(const TuningRound& round, Tolerances& tolerances) const {
     const auto refine_for = [&](const WorstLoad& worst, double allowed, double& of_space) {
       if (worst.displacement_percent <= allowed) return;
-      if (worst.best_percent > kLimited * worst.displacement_percent) {
-        of_space *= kRefinement;
-      }
+      if (worst.best_percent > kLimited * worst.displacement_percent) of_space *= kRefinement;
       tolerances.pressures *= kRefinement;
       tolerances.rule *= kRefinement;
     };
