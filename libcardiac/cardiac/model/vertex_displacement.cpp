@@ -14,9 +14,14 @@ polyaffine::WallPoints vertex_points(const polyaffine::TetMesh& mesh) {
   return out;
 }
 
+polyaffine::DisplacementMap vertex_displacement(const polyaffine::TetMesh& mesh,
+                                                const polyaffine::Basis& basis) {
+  const polyaffine::WallPoints vertices = vertex_points(mesh);
+  return {basis, vertices.tet, vertices.barycentric};
+}
+
 polyaffine::DisplacementMap vertex_displacement(const Ventricle& ventricle) {
-  const polyaffine::WallPoints vertices = vertex_points(ventricle.anatomy->mesh);
-  return {*ventricle.discretisation.basis, vertices.tet, vertices.barycentric};
+  return vertex_displacement(ventricle.anatomy->mesh, *ventricle.discretisation.basis);
 }
 
 }  // namespace cardiac

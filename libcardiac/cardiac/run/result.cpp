@@ -74,13 +74,14 @@ void add_motion(const Ventricle& ventricle, const std::vector<ControlNode>& node
   const Motion motion(ventricle, nodes, out.segments, key.ed.c);
   out.nodes = motion.nodes();
   if (scene.output.frames) out.frame_functions = frame_functions(ventricle.discretisation);
-  for (const HeartState& state : path.outputs) {
-    out.instants.push_back(motion.instant(state.time_ms, state.c));
-    out.min_det_F = std::min(out.min_det_F, out.instants.back().min_det_F);
+  out.instants = motion.instants(path.outputs);
+  for (std::size_t i = 0; i < out.instants.size(); ++i) {
+    out.min_det_F = std::min(out.min_det_F, out.instants[i].min_det_F);
     for (std::size_t k = 0; k < out.frame_functions.size(); ++k)
-      out.instants.back().frame_unknowns.emplace_back(state.c.segment<3>(3 * static_cast<Eigen::Index>(k)));
+      out.instants[i].frame_unknowns.emplace_back(
+          path.outputs[i].c.segment<3>(3 * static_cast<Eigen::Index>(k)));
   }
-  const Instant es = motion.instant(key.es.time_ms, key.es.c);
+  const Instant es = motion.instants({key.es}).front();
   out.strain = es.global.front();
   if (es.global.size() > 1) out.right_strain = es.global[1];
 }

@@ -149,4 +149,18 @@ std::vector<FullState> FullOrder::linear_answers(const FullState& state,
   return out;
 }
 
+std::vector<FullState> FullOrder::answers(const FullState& state,
+                                          const std::vector<scene::RegionOverride>& changes) {
+  std::vector<FullState> out;
+  for (const FullState& near : linear_answers(state, changes)) {
+    const Ventricle v = ventricle(near.load);
+    const System system = loaded_ventricle(v, wall_load(v, near.load));
+    FullState found{near.load, {}, {}};
+    ++solves_;
+    if (newton_from(near, system, *linear_, newton_options(), found.u, found.pressure))
+      out.push_back(std::move(found));
+  }
+  return out;
+}
+
 }  // namespace cardiac

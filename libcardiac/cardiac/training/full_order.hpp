@@ -60,6 +60,10 @@ class FullOrder {
   std::vector<FullState> linear_answers(const FullState& state,
                                         const std::vector<scene::RegionOverride>& changes);
 
+  /// The equilibria under the loads of the linear answers, each by Newton's method from it; those that this
+  /// does not find are left out.
+  std::vector<FullState> answers(const FullState& state, const std::vector<scene::RegionOverride>& changes);
+
   int solves() const { return solves_; }
 
   /// Called before each step of Newton's method; may throw.

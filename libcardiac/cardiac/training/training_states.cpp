@@ -56,6 +56,12 @@ void TrainingStates::add_answers(const FullState& of, const std::vector<scene::R
   for (FullState& answer : full_.linear_answers(of, changes)) neighbours_.push_back(std::move(answer));
 }
 
+void TrainingStates::add_full_answers(const FullState& of,
+                                      const std::vector<scene::RegionOverride>& changes) {
+  tell_("equilibria of " + of.load.name + " with changed segments");
+  for (FullState& answer : full_.answers(of, changes)) neighbours_.push_back(std::move(answer));
+}
+
 const FullState* TrainingStates::named(const std::string& load) const {
   const auto state = std::ranges::find(path_, load, [](const FullState& s) { return s.load.name; });
   return state == path_.end() ? nullptr : &*state;

@@ -24,6 +24,9 @@ class TrainingStates {
   /// How a state answers to first order to changes of its segments (FullOrder::linear_answers).
   void add_answers(const FullState& of, const std::vector<scene::RegionOverride>& changes);
 
+  /// How it answers in full (FullOrder::answers).
+  void add_full_answers(const FullState& of, const std::vector<scene::RegionOverride>& changes);
+
   const std::vector<FullState>& path() const { return path_; }
   const std::vector<FullState>& neighbours() const { return neighbours_; }
   /// The state of the path under the load of this name; null if there is none.

@@ -67,6 +67,9 @@ class Tuning {
     states_.solve_path();
     for (const TuningPlan::Changes& changes : plan_.neighbours)
       if (const FullState* state = states_.named(changes.of)) states_.add_answers(*state, changes.regions);
+    for (const TuningPlan::Changes& changes : plan_.far_neighbours)
+      if (const FullState* state = states_.named(changes.of))
+        states_.add_full_answers(*state, changes.regions);
     const double accuracy = control_.accuracy_percent / 100;
     const double pressure = full_.scene().reduction.affine_frames ? kPressureShareOfFrames : kPressureShare;
     Tolerances tolerances{kPathShare * accuracy, kNeighbourShare * accuracy,

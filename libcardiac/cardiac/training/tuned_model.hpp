@@ -20,6 +20,8 @@ struct TuningPlan {
     std::vector<scene::RegionOverride> regions;
   };
   std::vector<Changes> neighbours;
+  /// Changes too large for that: the equilibria with them are learned.
+  std::vector<Changes> far_neighbours;
   /// What the model of a round is held against, other loads each time.
   std::function<std::vector<TrainingLoad>(int round)> held_out;
 };

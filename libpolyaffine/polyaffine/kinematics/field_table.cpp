@@ -14,6 +14,29 @@ std::vector<int> PointBlock::functions() const {
   return all;
 }
 
+namespace {
+
+// Blocks of so few points, those of elements, are summed as they are: products of matrices would spend their
+// time on copies.
+constexpr int kFewPoints = 4;
+
+bool is_small(const PointBlock& block) {
+  return block.count <= kFewPoints && block.groups.size() == 1 && block.groups[0].lift.empty() &&
+         !block.groups[0].is_modes();
+}
+
+void add_small(const PointBlock& block, const Vector& c, double* field) {
+  const FunctionGroup& g = block.groups[0];
+  for (int q = 0; q < block.count; ++q) {
+    Eigen::Map<Mat3> at(field + 9 * q);
+    for (std::size_t a = 0; a < g.functions.size(); ++a)
+      at.noalias() +=
+          c.segment<3>(3 * g.functions[a]) * g.rows.block<1, 3>(static_cast<Eigen::Index>(a), 3 * q);
+  }
+}
+
+}  // namespace
+
 Matrix gather(const PointBlock& block, const Vector& c) {
   Matrix out(3, block.num_functions());
   int a = 0;
@@ -67,7 +90,13 @@ Matrix evaluate_field(const FieldTable& table, const Vector& c) {
     field = table.base;
   else
     field.colwise() = Mat3::Identity().reshaped();
-  for (const auto& block : table.blocks) add_field(block, gather(block, c), field.col(block.first).data());
+  for (const auto& block : table.blocks) {
+    double* at = field.col(block.first).data();
+    if (is_small(block))
+      add_small(block, c, at);
+    else
+      add_field(block, gather(block, c), at);
+  }
   return field;
 }
 

@@ -86,6 +86,18 @@ Vector NestedBasis::nodal(const Vector& c) const {
   return out;
 }
 
+Matrix NestedBasis::nodal_of_each(const Matrix& c) const {
+  Matrix out(3 * functions_.rows(), c.cols());
+  for (Eigen::Index k = 0; k < c.cols(); ++k) {
+    const Matrix u =
+        functions_ *
+        c.col(k).head(3 * static_cast<Eigen::Index>(num_scalar_)).reshaped(3, num_scalar_).transpose();
+    out.col(k) = u.transpose().reshaped();
+  }
+  if (modes_.cols() > 0) out.noalias() += modes_ * c.bottomRows(modes_.cols());
+  return out;
+}
+
 Matrix NestedBasis::transpose(const Matrix& forces) const {
   Matrix out(3 * num_functions(), forces.cols());
   const Eigen::Index nodes = functions_.rows(), scalar = 3 * static_cast<Eigen::Index>(num_scalar_);

@@ -18,6 +18,8 @@ NodalFunctions nodal_functions(const Basis& basis, const LagrangeBasis& elements
 /// elements a model of such functions is a Galerkin projection of theirs.
 class NestedBasis : public Basis {
  public:
+  using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
   /// `modes`: 3 · nodes × modes, a column a mode, their number a multiple of three (columns of zeros may fill
   /// it up; their unknowns are then to be fixed). Function f < functions.cols() is scalar, the following ones
   /// are three modes each. Throws std::invalid_argument when sizes do not fit.
@@ -29,9 +31,11 @@ class NestedBasis : public Basis {
   int num_scalar() const { return num_scalar_; }
   const LagrangeBasis& elements() const { return *elements_; }
   const NodalFunctions& functions() const { return functions_; }
-  const Matrix& modes() const { return modes_; }
+  const RowMatrix& modes() const { return modes_; }
   /// Displacement at the nodes, 3 · nodes: the coefficients of the same field in the elements' space.
   Vector nodal(const Vector& c) const;
+  /// The same of many, a column each: the modes are read once.
+  Matrix nodal_of_each(const Matrix& c) const;
   /// The transpose: generalised forces of forces at the nodes.
   Matrix transpose(const Matrix& forces) const;
 
@@ -39,7 +43,7 @@ class NestedBasis : public Basis {
   std::shared_ptr<const LagrangeBasis> elements_;
   int num_scalar_;
   NodalFunctions functions_;
-  Matrix modes_;
+  RowMatrix modes_;  // the modes of a node side by side, as sample reads them
 };
 
 }  // namespace polyaffine

@@ -44,5 +44,23 @@ TEST(FieldTable, HasAnExactTranspose) {
   }
 }
 
+// Few points are summed one by one, many by products of matrices.
+TEST(FieldTable, IsTheSameForFewAndForManyPoints) {
+  const RotatingBasis scene;
+  const LagrangeBasis& space = scene.space();
+  const Vector c = random_vector(3 * space.num_functions(), 0.1, 5);
+  for (const int degree : {1, 3}) {
+    const FieldTable table = deformation_table(space, space.wall_points(degree));
+    const Matrix field = evaluate_field(table, c);
+    for (const PointBlock& block : table.blocks) {
+      Matrix expected(9, block.count);
+      expected.colwise() = Mat3::Identity().reshaped();
+      add_field(block, gather(block, c), expected.data());
+      EXPECT_GT((expected.colwise() - Mat3::Identity().reshaped()).norm(), 1e-3);
+      EXPECT_LT((field.middleCols(block.first, block.count) - expected).norm(), 1e-13);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace polyaffine

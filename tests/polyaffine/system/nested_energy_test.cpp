@@ -137,6 +137,20 @@ TEST(NestedEnergy, DisplacementMapIsThatOfTheElements) {
   EXPECT_LT((reduced.transpose(forces) - expected).norm(), kRounding * expected.norm());
 }
 
+TEST(NestedBasis, TellsManyFieldsAsEachByItself) {
+  const Nested nested;
+  Matrix c(3 * nested.basis->num_functions(), 3);
+  for (Eigen::Index k = 0; k < c.cols(); ++k)
+    c.col(k) = nested.coefficients(0.1, 20 + static_cast<unsigned>(k));
+  const Matrix u = nested.basis->nodal_of_each(c);
+  ASSERT_EQ(u.cols(), c.cols());
+  for (Eigen::Index k = 0; k < c.cols(); ++k) {
+    const Vector alone = nested.basis->nodal(c.col(k));
+    EXPECT_GT(alone.norm(), 0.1);
+    EXPECT_LT((u.col(k) - alone).norm(), kRounding * alone.norm());
+  }
+}
+
 TEST(NestedBasis, RefusesModesThatDoNotFit) {
   const Nested nested;
   EXPECT_THROW(NestedBasis(nested.elements, nested.basis->functions(), Matrix(3, 3)), std::invalid_argument);
