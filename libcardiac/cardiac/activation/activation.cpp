@@ -1,6 +1,9 @@
 #include "cardiac/activation/activation.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <string>
 
@@ -36,6 +39,53 @@ std::vector<Mat3> conduction_tensors(const Points& fibre, const ConductionVeloci
     tensors[t] = across * Mat3::Identity() + (along - across) * f * f.transpose();
   }
   return tensors;
+}
+
+Vector mapped_times(const TetMesh& mesh, const ActivationMap& map, double largest_gap) {
+  constexpr int kNeighbours = 4;
+  constexpr double kSamePlace = 1e-6;  // mm
+  const auto count = map.points.cols();
+  if (count == 0) throw InputError("activation: found no point with a time, expected at least one");
+  const int used = static_cast<int>(std::min<Eigen::Index>(kNeighbours, count));
+  Vector out(mesh.num_points());
+  struct Near {
+    double distance;
+    Eigen::Index point;
+  };
+  for (Eigen::Index v = 0; v < mesh.num_points(); ++v) {
+    std::array<Near, kNeighbours> nearest;
+    nearest.fill({std::numeric_limits<double>::infinity(), 0});
+    const Vec3 X = mesh.points().col(v);
+    if (v < count && (map.points.col(v) - X).norm() <= kSamePlace) {  // an array of this mesh
+      out[v] = map.times_ms[v];
+      continue;
+    }
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const double distance = (map.points.col(i) - X).squaredNorm();
+      if (distance >= nearest[used - 1].distance) continue;
+      int place = used - 1;
+      for (; place > 0 && nearest[place - 1].distance > distance; --place)
+        nearest[place] = nearest[place - 1];
+      nearest[place] = {distance, i};
+    }
+    if (std::sqrt(nearest[0].distance) > largest_gap) {
+      std::ostringstream out_text;
+      out_text << "activation: the vertex (" << X.transpose() << ") mm has no point with a time nearer than "
+               << std::sqrt(nearest[0].distance) << " mm, expected one within " << largest_gap << " mm";
+      throw InputError(out_text.str());
+    }
+    if (nearest[0].distance <= kSamePlace * kSamePlace) {
+      out[v] = map.times_ms[nearest[0].point];
+      continue;
+    }
+    double sum = 0, weights = 0;
+    for (int k = 0; k < used; ++k) {
+      sum += map.times_ms[nearest[k].point] / nearest[k].distance;
+      weights += 1 / nearest[k].distance;
+    }
+    out[v] = sum / weights;
+  }
+  return out;
 }
 
 Vector activation_times(const TetMesh& mesh, const Points& fibre, const ConductionVelocity& velocity,

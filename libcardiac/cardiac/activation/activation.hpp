@@ -13,6 +13,18 @@ struct ActivationSite {
   double onset = 0;           ///< ms
 };
 
+/// Activation times that were measured or computed elsewhere: points (mm) and their times (ms).
+struct ActivationMap {
+  polyaffine::Points points;
+  polyaffine::Vector times_ms;
+};
+
+/// The times of a map at every vertex, ms: that of the point where one lies on the vertex, otherwise the mean
+/// of the four nearest weighted by the inverse square of their distance (Shepard 1968). Throws InputError,
+/// saying how far, when a vertex has no point within `largest_gap` (mm).
+polyaffine::Vector mapped_times(const polyaffine::TetMesh& mesh, const ActivationMap& map,
+                                double largest_gap = 30);
+
 /// Conduction velocities, mm/ms (= m/s). Human ventricle: about 0.6 along and 0.3 across (Durrer et al.
 /// 1970).
 struct ConductionVelocity {

@@ -1,5 +1,6 @@
 #include "cardiac/circulation/two_sided_loop.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "cardiac/circulation/outlet.hpp"
@@ -16,7 +17,7 @@ constexpr std::array<int, 2> kVeins{pulmonary_venous_pressure, systemic_venous_p
 
 }  // namespace
 
-CirculationModel::Rates TwoSidedCirculation::rates(const Vector& z, const Vector& p) const {
+CirculationModel::Rates TwoSidedCirculation::rates(double, const Vector& z, const Vector& p) const {
   const std::array<const TwoSidedLoop::Side*, 2> sides{&loop_.left, &loop_.right};
   Rates out{Vector::Zero(two_sided_size), Matrix::Zero(two_sided_size, two_sided_size),
             Matrix::Zero(two_sided_size, 2)};
@@ -53,18 +54,21 @@ CirculationModel::Rates TwoSidedCirculation::rates(const Vector& z, const Vector
   return out;
 }
 
-CirculationModel::Side TwoSidedCirculation::side(int cavity, const Vector& z, const Vector& p) const {
+CirculationModel::Side TwoSidedCirculation::side(int cavity, double, const Vector& z, const Vector& p) const {
   const TwoSidedLoop::Side& side = of(cavity);
   const Windkessel& arteries = side.arteries;
   const double before = z[kVeins[cavity]], capacitor = z[kArteries[cavity]], behind = z[kVeins[1 - cavity]];
   const double outflow = valve_flow(outlet(side.outlet, arteries), p[cavity] - capacitor).flow_mm3_per_ms;
+  const double inflow = valve_flow(side.inlet, before - p[cavity]).flow_mm3_per_ms;
   return {.before_kPa = before,
           .capacitor_kPa = capacitor,
           .artery_kPa = inlet_pressure(arteries, capacitor, outflow),
           .behind_kPa = behind,
-          .inflow_mm3_per_ms = valve_flow(side.inlet, before - p[cavity]).flow_mm3_per_ms,
+          .inflow_mm3_per_ms = inflow,
           .outflow_mm3_per_ms = outflow,
-          .run_off_mm3_per_ms = (capacitor - behind) / arteries.peripheral_resistance_kPa_ms_per_mm3};
+          .run_off_mm3_per_ms = (capacitor - behind) / arteries.peripheral_resistance_kPa_ms_per_mm3,
+          .inlet_mm3_per_ms = inflow,
+          .outlet_mm3_per_ms = outflow};
 }
 
 Vector TwoSidedCirculation::compliances() const {
@@ -74,6 +78,13 @@ Vector TwoSidedCirculation::compliances() const {
     out[kVeins[k]] = of(k).venous_compliance_mm3_per_kPa;
   }
   return out;
+}
+
+double TwoSidedCirculation::slowest_ms() const {
+  const auto time = [](const Windkessel& w) {
+    return w.peripheral_resistance_kPa_ms_per_mm3 * w.compliance_mm3_per_kPa;
+  };
+  return std::max(time(loop_.left.arteries), time(loop_.right.arteries));
 }
 
 double TwoSidedCirculation::blood_volume(const Vector& z) const {

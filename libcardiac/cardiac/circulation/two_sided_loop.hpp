@@ -35,13 +35,15 @@ class TwoSidedCirculation : public CirculationModel {
   explicit TwoSidedCirculation(const TwoSidedLoop& loop) : loop_(loop) {}
   int num_cavities() const override { return 2; }
   int num_states() const override { return two_sided_size; }
-  Rates rates(const polyaffine::Vector& states, const polyaffine::Vector& pressures_kPa) const override;
-  Side side(int cavity, const polyaffine::Vector& states,
+  Rates rates(double time_ms, const polyaffine::Vector& states,
+              const polyaffine::Vector& pressures_kPa) const override;
+  Side side(int cavity, double time_ms, const polyaffine::Vector& states,
             const polyaffine::Vector& pressures_kPa) const override;
   const Valve& inlet(int cavity) const override { return of(cavity).inlet; }
   const Valve& outlet_valve(int cavity) const override { return of(cavity).outlet; }
   polyaffine::Vector compliances() const override;
   bool is_closed() const override { return true; }
+  double slowest_ms() const override;
 
   /// Σ V + Σ C p in mm³.
   double blood_volume(const polyaffine::Vector& states) const;

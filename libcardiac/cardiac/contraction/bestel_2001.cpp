@@ -133,6 +133,46 @@ TensionCurve::TensionCurve(const BestelParameters& p, double period_ms) : period
   }
 }
 
+TensionCurve::TensionCurve(const GivenCurve& given) : period_ms_(given.period_ms()) {
+  constexpr double kOnset = 0.01;          // of the range
+  constexpr int kSamples = 2000;           // of a period, where onset and peak are looked for
+  constexpr double kWanted_spacing = 0.5;  // ms
+  const auto sample = [&](int i) { return given.begin_ms + period_ms_ * i / kSamples; };
+  double low = given.at(given.begin_ms).first, high = low;
+  int top = 0;
+  for (int i = 1; i < kSamples; ++i) {
+    const double tension = given.at(sample(i)).first;
+    low = std::min(low, tension);
+    if (tension > high) {
+      high = tension;
+      top = i;
+    }
+  }
+  if (!(high > low)) {
+    std::ostringstream text;
+    text << "contraction: the tension that is given is " << high
+         << " kPa at all times, expected one that rises";
+    throw InputError(text.str());
+  }
+  int onset = top - 1;
+  while (onset > top - kSamples && given.at(sample(onset)).first > low + kOnset * (high - low)) --onset;
+  peak_tension_kPa_ = high;
+  begin_ms_ = sample(onset);
+  end_ms_ = sample(top);
+  const auto fill = [&](Piece& piece, double from, double to) {
+    const int intervals = std::max(1, static_cast<int>(std::ceil((to - from) / kWanted_spacing)));
+    piece.spacing_ms = (to - from) / intervals;
+    for (int i = 0; i <= intervals; ++i) {
+      const double t = from + piece.spacing_ms * i;
+      const auto [tension, rate] =
+          given.at(given.repeats ? t : wrapped(t - given.begin_ms, period_ms_) + given.begin_ms);
+      piece.nodes.push_back({tension, rate});
+    }
+  };
+  fill(contraction_, begin_ms_, end_ms_);
+  fill(relaxation_, end_ms_, begin_ms_ + period_ms_);
+}
+
 TensionCurve::Sample TensionCurve::at(double time_ms) const {
   const double from_begin = wrapped(time_ms - begin_ms_, period_ms_), length = end_ms_ - begin_ms_;
   const Piece& piece = from_begin < length ? contraction_ : relaxation_;

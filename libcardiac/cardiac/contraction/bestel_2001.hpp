@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include <cardiac/core/given_curve.hpp>
 #include <polyaffine/core/types.hpp>
 
 namespace cardiac {
@@ -47,6 +48,12 @@ class TensionCurve {
 
   /// Throws as check_contraction.
   TensionCurve(const BestelParameters& parameters, double period_ms);
+
+  /// A tension that is given, kPa from the excitation of a point on; one that does not repeat has its own
+  /// length as period. Contraction begins where the tension has risen by 1 % of its range, for the last time
+  /// before its largest value, and ends there. Throws polyaffine::InputError where the tension does not
+  /// change.
+  explicit TensionCurve(const GivenCurve& given);
 
   /// τ and τ̇ at any time, also negative: periodic.
   Sample at(double time_ms) const;

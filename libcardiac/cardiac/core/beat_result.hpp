@@ -83,6 +83,15 @@ struct SegmentInfo {
 struct ValveVolumes {
   std::string name;
   double forward_mL = 0, regurgitant_mL = 0, regurgitant_percent = 0;
+  double mean_gradient_mmHg = 0, peak_gradient_mmHg = 0;  ///< pressure drop while blood flows forwards
+};
+
+/// What flows through a compliance of the circulation in a beat; without a change of what it holds both are
+/// the same.
+struct FlowBalance {
+  std::string name;
+  double mean_inflow_mL_per_s = 0, mean_outflow_mL_per_s = 0;
+  double error_percent = 0;  ///< their difference, in percent of the inflow
 };
 
 /// The circulation of one ventricle over the last beat. Arterial: behind the outlet valve; venous: before the
@@ -94,6 +103,9 @@ struct Haemodynamics {
   double arterial_mean_mmHg = 0, arterial_systolic_mmHg = 0, arterial_diastolic_mmHg = 0;
   double venous_mean_mmHg = 0;
   std::vector<ValveVolumes> valves;  ///< inlet, outlet
+  /// Stroke work and the potential energy ½ p_ES V_ES of a wall that is slack at the volume 0 (Suga 1979).
+  double pressure_volume_area_mmHg_mL = 0, pressure_volume_area_mJ = 0;
+  double arterial_elastance_mmHg_per_mL = 0;  ///< end-systolic pressure over stroke volume (Sunagawa 1983)
 };
 
 /// Columns with their names, all of the same length.
@@ -160,6 +172,7 @@ struct BeatResult {
   std::vector<Instant> instants;               ///< the last beat, time counted from its start
   std::vector<VentricleSummary> ventricles;
   CirculationTable circulation;              ///< the last beat; empty without one
+  std::vector<FlowBalance> balances;         ///< of it
   GlobalStrain strain;                       ///< of the left ventricle at end systole
   std::optional<GlobalStrain> right_strain;  ///< of the right free wall at the same time
   double min_det_F = 1, max_det_F = 1;

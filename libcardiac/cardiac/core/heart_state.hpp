@@ -9,7 +9,9 @@ struct HeartState {
   double time_ms = 0;                                 ///< from the start of the beat
   polyaffine::Vector c;                               ///< coefficients of the wall, mm
   polyaffine::Vector volumes_mm3{}, pressures_kPa{};  ///< of the cavities
-  polyaffine::Vector vessels_kPa{};  ///< pressures of the circulation's vessels; empty without a circulation
+  /// Pressures of the circulation's vessels, of a network also its other states (CirculationModel); empty
+  /// without a circulation.
+  polyaffine::Vector vessels_kPa{};
 
   /// The states of a CirculationModel: volumes, then pressures of vessels.
   polyaffine::Vector circulation() const;

@@ -15,6 +15,9 @@ inline constexpr double resistance_per_mmHg_s_per_mL = kPa_per_mmHg * ms_per_s /
 inline constexpr double compliance_per_mL_per_mmHg = mm3_per_mL / kPa_per_mmHg;
 /// mmHg·s²/mL to kPa·ms²/mm³
 inline constexpr double inertance_per_mmHg_s2_per_mL = kPa_per_mmHg * ms_per_s * ms_per_s / mm3_per_mL;
+/// mmHg·s²/mL² to kPa·ms²/mm⁶
+inline constexpr double stenosis_per_mmHg_s2_per_mL2 =
+    kPa_per_mmHg * ms_per_s * ms_per_s / mm3_per_mL / mm3_per_mL;
 /// mL/s to mm³/ms
 inline constexpr double flow_per_mL_per_s = mm3_per_mL / ms_per_s;
 /// mmHg/mL to kPa/mm³

@@ -21,13 +21,13 @@ Vector CirculationTerm::states(const Vector& y) const {
 // The equations of the volumes' rates stand in the rows of the cavities' pressures: the rows of the volumes
 // hold what relates them to the wall.
 void CirculationTerm::add_residual(const At& at, polyaffine::Residual& out) const {
-  const Vector flows = model_->rates(states(at.y), pressures_.of(at.y)).values;
+  const Vector flows = model_->rates(at.t, states(at.y), pressures_.of(at.y)).values;
   pressures_.of(out.values) += at.rate_of(volumes_) - flows.head(volumes_.size);
   vessels_.of(out.values) += at.rate_of(vessels_) - flows.tail(vessels_.size);
 }
 
 void CirculationTerm::add_tangent(const At& at, double alpha, polyaffine::Tangent& out) const {
-  const auto rates = model_->rates(states(at.y), pressures_.of(at.y));
+  const auto rates = model_->rates(at.t, states(at.y), pressures_.of(at.y));
   const int m = volumes_.size, n = m + vessels_.size;
   const auto row = [&](int k) {
     return out.few_index(k < m ? pressures_.first + k : vessels_.first + k - m);

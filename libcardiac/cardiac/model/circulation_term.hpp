@@ -7,7 +7,7 @@
 
 namespace cardiac {
 
-/// A circulation ż = f(z, p) of the cavities' volumes and the vessels' pressures z under the cavities'
+/// A circulation ż = f(t, z, p) of the cavities' volumes and its own states z under the cavities'
 /// pressures p. Newton's method meets it as it is: stiff valves bend sharply.
 class CirculationTerm : public polyaffine::Term {
  public:

@@ -17,11 +17,27 @@ using polyaffine::Vector;
 namespace {
 
 constexpr double kVolumeTolerance_mm3 = 0.01 * mm3_per_mL;  // a thousandth of what the tables tell of volumes
+constexpr double kFlowTolerance_mm3_per_ms = 0.1 * flow_per_mL_per_s;  // and of flows
 
 // So large that the elastic part of K + αC does not count, 1/ms.
 constexpr double kViscousAlpha = 1e8;
 constexpr int kMostIterations = 50;
 constexpr double kRounding = 1e-14;  // of the pressures, relative
+
+// The states of the circulation behind the volumes of its cavities, one block a kind.
+void add_vessels(const CirculationModel& circulation, double pressure_tolerance,
+                 polyaffine::StateLayout& layout, Unknowns& vessels) {
+  vessels = {layout.size(), 0};
+  const auto [pressures, volumes, flows] = circulation.kinds();
+  const auto add = [&](const char* name, const char* unit, double tolerance, int size) {
+    if (size == 0) return;
+    layout.add({.name = name, .unit = unit, .absolute_tolerance = tolerance}, size);
+    vessels.size += size;
+  };
+  add("vessel pressures", "kPa", pressure_tolerance, pressures);
+  add("chamber volumes", "mm3", kVolumeTolerance_mm3, volumes);
+  add("vessel flows", "mm3/ms", kFlowTolerance_mm3_per_ms, flows);
+}
 
 }  // namespace
 
@@ -38,9 +54,7 @@ CoupledHeart couple(const Ventricle& ventricle, std::shared_ptr<const Circulatio
   const double pressure_tolerance = time.absolute_tolerance_kPa;
   out.volumes = layout.add(
       {.name = "cavity volumes", .unit = "mm3", .absolute_tolerance = kVolumeTolerance_mm3}, cavities);
-  out.vessels =
-      layout.add({.name = "vessel pressures", .unit = "kPa", .absolute_tolerance = pressure_tolerance},
-                 circulation->num_states() - cavities);
+  add_vessels(*circulation, pressure_tolerance, layout, out.vessels);
   out.pressures = layout.add({.name = "cavity pressures",
                               .unit = "kPa",
                               .absolute_tolerance = pressure_tolerance,
@@ -78,7 +92,7 @@ HeartState CoupledHeart::unpack(double time_ms, const Vector& y) const {
 polyaffine::SystemCost make_consistent(const CoupledHeart& heart, polyaffine::LinearSystem& linear, double t,
                                        Vector& y, Vector& rate) {
   const int m = heart.num_cavities();
-  const auto circulate = [&] { return heart.circulation->rates(heart.states(y), heart.pressures.of(y)); };
+  const auto circulate = [&] { return heart.circulation->rates(t, heart.states(y), heart.pressures.of(y)); };
   heart.vessels.of(rate) = circulate().values.tail(heart.vessels.size);
   polyaffine::Linearised viscous(heart.system, linear);
   if (!viscous.factorise({t, y, &rate}, kViscousAlpha)) return viscous.cost();

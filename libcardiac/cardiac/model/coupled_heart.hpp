@@ -10,8 +10,9 @@
 namespace cardiac {
 
 /// The wall, its cavities and their circulation as one equation in time over y = [c, V, z, p]: coefficients,
-/// volumes of the cavities, pressures of the vessels and of the cavities,
-///   ∂W/∂c(c, ċ, τ(t)) + supports − Σ p ∂V/∂c = 0,  V − V(c) = 0,  [V̇, ż] = f(V, z, p).
+/// volumes of the cavities, other states of the circulation (pressures of vessels, volumes of chambers,
+/// flows) and pressures of the cavities,
+///   ∂W/∂c(c, ċ, τ(t)) + supports − Σ p ∂V/∂c = 0,  V − V(c) = 0,  [V̇, ż] = f(t, V, z, p).
 struct CoupledHeart {
   polyaffine::System system;
   polyaffine::Unknowns displacement, volumes, vessels, pressures;

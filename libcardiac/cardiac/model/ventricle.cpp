@@ -52,6 +52,7 @@ std::vector<ActivationSite> sites(const Anatomy& anatomy, const scene::Activatio
 // Activation time of each vertex, ms, without the delays of regions.
 Vector vertex_activation(const Anatomy& anatomy, const Scene& scene) {
   const auto& a = *scene.activation;
+  if (a.map) return mapped_times(anatomy.mesh, *a.map);
   if (a.mode == scene::ActivationMode::uniform)
     return Vector::Constant(anatomy.mesh.num_points(), a.onset_ms);
   return activation_times(anatomy.mesh, tet_fibres(anatomy, *scene.fibres),
@@ -81,8 +82,11 @@ std::shared_ptr<const ContractionField> build_contraction(const Anatomy& anatomy
   ++built["contraction"];
   ++built["activation"];
   const Vector at_vertices = vertex_activation(anatomy, scene);
-  ContractionField out{TensionCurve(bestel_parameters(*scene.contraction, scene.time), scene.time.beat_ms),
-                       at_points(anatomy, at_vertices, points),
+  const TensionCurve curve =
+      scene.contraction->tension
+          ? TensionCurve(*scene.contraction->tension)
+          : TensionCurve(bestel_parameters(*scene.contraction, scene.time), scene.time.beat_ms);
+  ContractionField out{curve, at_points(anatomy, at_vertices, points),
                        Vector::Ones(static_cast<Eigen::Index>(points.tet.size())), at_vertices};
   if (!factors.tension.empty()) {
     out.scale = Eigen::Map<const Vector>(factors.tension.data(), out.scale.size());

@@ -114,146 +114,6 @@ Table cavities_table() {
   return table.build();
 }
 
-// What the closed loop of two ventricles has beside the left ventricle's.
-void add_right_circulation(TableBuilder<std::optional<Circulation>>& table) {
-  const std::string unit = "mmHg·s/mL";
-  const auto of_two = [](KeyFacts facts) {
-    facts.used_with = "anatomy.scheme";
-    facts.used_values = {"aha29"};
-    return facts;
-  };
-  table
-      .key("right_filling_pressure_mmHg", &Circulation::right_filling_pressure_kPa,
-           of_two({.unit = "mmHg",
-                   .range = {0, 100},
-                   .meaning =
-                       "pressure before the tricuspid valve (right atrium) when the first beat begins; with "
-                       "two ventricles filling_pressure_mmHg too is only the first value of that before the "
-                       "mitral valve",
-                   .source = "normal right atrial pressure, 2 to 6 mmHg"}),
-           {kPa_per_mmHg})
-      .key("tricuspid_resistance_mmHg_s_per_mL", &Circulation::tricuspid_resistance_kPa_ms_per_mm3,
-           of_two({.unit = unit,
-                   .range = above_zero(100),
-                   .meaning = "resistance of the open tricuspid valve",
-                   .source = "of the order of Regazzoni 2022: 0.0075"}),
-           {resistance_per_mmHg_s_per_mL})
-      .key("pulmonary_valve_resistance_mmHg_s_per_mL",
-           &Circulation::pulmonary_valve_resistance_kPa_ms_per_mm3,
-           of_two({.unit = unit,
-                   .range = above_zero(100),
-                   .meaning = "resistance of the open pulmonary valve",
-                   .source = "Regazzoni 2022: 0.0075"}),
-           {resistance_per_mmHg_s_per_mL})
-      .key("pulmonary_characteristic_resistance_mmHg_s_per_mL",
-           &Circulation::pulmonary_characteristic_resistance_kPa_ms_per_mm3,
-           of_two({.unit = unit,
-                   .range = {0, 100},
-                   .meaning = "resistance between the pulmonary valve and the compliance",
-                   .source = kHealthy}),
-           {resistance_per_mmHg_s_per_mL})
-      .key("pulmonary_peripheral_resistance_mmHg_s_per_mL",
-           &Circulation::pulmonary_peripheral_resistance_kPa_ms_per_mm3,
-           of_two({.unit = unit,
-                   .range = above_zero(1000),
-                   .meaning = "resistance of the lungs, from the compliance to the pulmonary veins",
-                   .source = "Regazzoni 2022: 0.046 + 0.0015"}),
-           {resistance_per_mmHg_s_per_mL})
-      .key("pulmonary_compliance_mL_per_mmHg", &Circulation::pulmonary_compliance_mm3_per_kPa,
-           of_two({.unit = "mL/mmHg",
-                   .range = above_zero(200),
-                   .meaning = "compliance of the pulmonary arteries",
-                   .source = std::string(kHealthy) + "; Regazzoni 2022: 20"}),
-           {compliance_per_mL_per_mmHg})
-      .key("pulmonary_venous_compliance_mL_per_mmHg", &Circulation::pulmonary_venous_compliance_mm3_per_kPa,
-           of_two({.unit = "mL/mmHg",
-                   .range = above_zero(500),
-                   .meaning = "compliance of the pulmonary veins and the left atrium",
-                   .source = "Regazzoni 2022: 16"}),
-           {compliance_per_mL_per_mmHg})
-      .key("systemic_venous_compliance_mL_per_mmHg", &Circulation::systemic_venous_compliance_mm3_per_kPa,
-           of_two({.unit = "mL/mmHg",
-                   .range = above_zero(500),
-                   .meaning = "compliance of the systemic veins and the right atrium",
-                   .source = std::string(kHealthy) + "; Regazzoni 2022: 11.4"}),
-           {compliance_per_mL_per_mmHg})
-      .key("initial_pulmonary_pressure_mmHg", &Circulation::initial_pulmonary_pressure_kPa,
-           of_two({.unit = "mmHg",
-                   .range = {0, 300},
-                   .meaning = "pressure of the pulmonary compliance when the first beat begins",
-                   .source = "near the limit cycle of the default heart; counts to the volume of the blood"}),
-           {kPa_per_mmHg});
-}
-
-Table circulation_table() {
-  const std::string unit = "mmHg·s/mL";
-  const std::string source = "three-element windkessel, Westerhof 1969";
-  TableBuilder table("circulation",
-                     "Valves, arteries and veins around the cavity: a three-element windkessel.",
-                     &Protocol::circulation);
-  table
-      .key("filling_pressure_mmHg", &Circulation::filling_pressure_kPa,
-           {.unit = "mmHg",
-            .range = {0, 100},
-            .meaning = "pressure before the mitral valve (atrium)",
-            .source = "normal left atrial and end-diastolic pressure, 4 to 12 mmHg"},
-           {kPa_per_mmHg})
-      .key("mitral_resistance_mmHg_s_per_mL", &Circulation::mitral_resistance_kPa_ms_per_mm3,
-           {.unit = unit,
-            .range = above_zero(100),
-            .meaning = "resistance of the open mitral valve",
-            .source = "of the order of Regazzoni 2022: 0.0075"},
-           {resistance_per_mmHg_s_per_mL})
-      .key("aortic_valve_resistance_mmHg_s_per_mL", &Circulation::aortic_valve_resistance_kPa_ms_per_mm3,
-           {.unit = unit,
-            .range = above_zero(100),
-            .meaning = "resistance of the open aortic valve",
-            .source = "Regazzoni 2022: 0.0075"},
-           {resistance_per_mmHg_s_per_mL})
-      .key("aortic_leak_resistance_mmHg_s_per_mL", &Circulation::aortic_leak_resistance_kPa_ms_per_mm3,
-           {.unit = unit,
-            .range = above_zero(1000),
-            .meaning = "resistance of the closed aortic valve to backward flow (regurgitation)",
-            .absent = "the valve is tight"},
-           {resistance_per_mmHg_s_per_mL})
-      .key("characteristic_resistance_mmHg_s_per_mL", &Circulation::characteristic_resistance_kPa_ms_per_mm3,
-           {.unit = unit,
-            .range = {0, 100},
-            .meaning = "resistance between the aortic valve and the compliance (proximal aorta)",
-            .source = source},
-           {resistance_per_mmHg_s_per_mL})
-      .key("peripheral_resistance_mmHg_s_per_mL", &Circulation::peripheral_resistance_kPa_ms_per_mm3,
-           {.unit = unit,
-            .range = above_zero(1000),
-            .meaning = "resistance of the small vessels, from the compliance to the veins",
-            .source = source},
-           {resistance_per_mmHg_s_per_mL})
-      .key("compliance_mL_per_mmHg", &Circulation::compliance_mm3_per_kPa,
-           {.unit = "mL/mmHg",
-            .range = above_zero(1e4),
-            .meaning = "compliance of the arteries",
-            .source = "Regazzoni 2022: 1.372"},
-           {compliance_per_mL_per_mmHg})
-      .key("venous_pressure_mmHg", &Circulation::venous_pressure_kPa,
-           {.unit = "mmHg",
-            .range = {0, 100},
-            .meaning = "pressure behind the small vessels",
-            .source = "normal central venous pressure, 2 to 8 mmHg",
-            .used_with = "anatomy.scheme",
-            .used_values = {"aha17"}},
-           {kPa_per_mmHg})
-      .key("initial_aortic_pressure_mmHg", &Circulation::initial_aortic_pressure_kPa,
-           {.unit = "mmHg",
-            .range = {0, 300},
-            .meaning = "pressure of the compliance when the first beat begins",
-            .source =
-                "near the limit cycle of the default heart; with two ventricles it counts to the volume of "
-                "the blood, with one the limit cycle does not depend on it"},
-           {kPa_per_mmHg});
-  add_right_circulation(table);
-  return table.build();
-}
-
 Table boundary_table() {
   TableBuilder table("boundary", "How the ventricle is held.", &Protocol::boundary);
   table
@@ -400,8 +260,11 @@ Table region_table() {
 }  // namespace
 
 std::vector<Table> beat_tables() {
-  return {activation_table(), contraction_table(), cavities_table(), circulation_table(),
-          boundary_table(),   time_table(),        output_table(),   region_table()};
+  std::vector<Table> out{activation_table(), contraction_table(), cavities_table()};
+  for (Table& table : circulation_tables()) out.push_back(std::move(table));
+  for (Table& table : std::vector{boundary_table(), time_table(), output_table(), region_table()})
+    out.push_back(std::move(table));
+  return out;
 }
 
 }  // namespace cardiac::protocol

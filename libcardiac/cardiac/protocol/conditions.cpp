@@ -11,6 +11,18 @@ Condition beats() {
   return {"[circulation]", [](const Protocol& p, std::size_t) { return p.circulation.has_value(); }};
 }
 
+Condition windkessels() {
+  return {"circulation.loop = windkessel", [](const Protocol& p, std::size_t) {
+            return p.circulation && p.circulation->loop == Loop::windkessel;
+          }};
+}
+
+Condition networks() {
+  return {"circulation.loop = network", [](const Protocol& p, std::size_t) {
+            return p.circulation && p.circulation->loop == Loop::network;
+          }};
+}
+
 Condition prescribed() {
   return {"a run without [circulation]",
           [](const Protocol& p, std::size_t) { return !p.circulation.has_value(); }};

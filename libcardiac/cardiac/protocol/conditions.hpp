@@ -10,6 +10,9 @@ namespace cardiac::protocol {
 Condition contracts();
 /// Beats in a circulation are computed, not a prescribed pressure.
 Condition beats();
+/// The circulation consists of windkessels; it is a network of one's own.
+Condition windkessels();
+Condition networks();
 /// The pressure is prescribed, or nothing but the contraction loads the wall.
 Condition prescribed();
 /// The model is a reduced one.

@@ -84,7 +84,7 @@ Json table_schema(const Table& table) {
                  {"additionalProperties", false}};
   for (const Key& key : table.keys) {
     schema["properties"][key.name] = key_schema(table, key);
-    if (key.facts.required) schema["required"].push_back(key.name);
+    if (key.facts.required && key.facts.instead.empty()) schema["required"].push_back(key.name);
   }
   return table.list ? list_of(std::move(schema)) : schema;
 }
@@ -185,7 +185,9 @@ Json protocol_schema() {
                  {"required", Json::array()},
                  {"additionalProperties", false}};
   for (const Table& table : tables()) {
-    schema["properties"][table.name] = table_schema(table);
+    const auto dot = table.name.find('.');
+    Json& parent = dot == std::string::npos ? schema : schema["properties"][table.name.substr(0, dot)];
+    parent["properties"][table.name.substr(dot + 1)] = table_schema(table);
     if (table.required) schema["required"].push_back(table.name);
   }
   return schema;
@@ -203,17 +205,20 @@ Json resolved_json(const Protocol& protocol) {
       }
       entries.push_back(std::move(entry));
     }
-    if (!entries.empty()) resolved[table.name] = table.list ? entries : entries[0];
+    if (entries.empty()) continue;
+    const auto dot = table.name.find('.');
+    Json& parent = dot == std::string::npos ? resolved : resolved[table.name.substr(0, dot)];
+    parent[table.name.substr(dot + 1)] = table.list ? entries : entries[0];
   }
   return resolved;
 }
 
 std::string explain(const std::string& words) {
   if (words.find_first_not_of(' ') == std::string::npos) return explain_tables();
-  const auto dot = words.find('.');
+  if (const Table* table = find_table(words)) return explain_table(*table);
+  const auto dot = words.rfind('.');
   const std::string first = words.substr(0, dot);
   if (dot == std::string::npos) {
-    if (const Table* table = find_table(first)) return explain_table(*table);
     std::string text;
     for (const Table& table : tables()) {
       if (const Key* key = find_key(table, first)) text += explain_key(table, *key);

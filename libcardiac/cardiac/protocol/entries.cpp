@@ -67,14 +67,11 @@ class Flattening {
     for (const auto& [name, node] : root) {
       const std::string table(name.str());
       const Table* known = find_table(table);
-      if (known != nullptr && known->list && node.is_array() && node.as_array()->empty()) {
-        add({table, 0, "", Json::array(), "an empty list", where(node)});
-      } else if (node.is_array_of_tables() && (known == nullptr || known->list)) {
-        std::size_t index = 0;
-        for (const auto& element : *node.as_array()) add_table(table, index++, *element.as_table(), element);
-      } else if (known != nullptr && known->list && !is_file_ && node.is_table()) {
-        add_numbered(table, *node.as_table());
-      } else if (node.is_table() && (known == nullptr || !known->list)) {
+      if (known != nullptr && known->list) {
+        add_list(table, node);
+      } else if (node.is_array_of_tables() && known == nullptr) {
+        add_entries(table, *node.as_array());
+      } else if (node.is_table()) {
         add_table(table, 0, *node.as_table(), node);
       } else {
         add({"", 0, table, json_of(node), found_text(node), where(node)});
@@ -84,6 +81,23 @@ class Flattening {
   }
 
  private:
+  void add_entries(const std::string& table, const toml::array& elements) {
+    std::size_t index = 0;
+    for (const auto& element : elements) add_table(table, index++, *element.as_table(), element);
+  }
+
+  /// What is given for a list of tables.
+  void add_list(const std::string& table, const toml::node& node) {
+    if (node.is_array() && node.as_array()->empty())
+      add({table, 0, "", Json::array(), "an empty list", where(node)});
+    else if (node.is_array_of_tables())
+      add_entries(table, *node.as_array());
+    else if (!is_file_ && node.is_table())
+      add_numbered(table, *node.as_table());
+    else
+      add({"", 0, table, json_of(node), found_text(node), where(node)});
+  }
+
   void add_numbered(const std::string& table, const toml::table& elements) {
     for (const auto& [number, node] : elements) {
       const std::string digits(number.str());
@@ -100,6 +114,11 @@ class Flattening {
                  const toml::node& node, bool existing = false) {
     if (!existing) add({table, index, "", {}, "a table", where(node)});
     for (const auto& [key, value] : content) {
+      const std::string nested = table + '.' + std::string(key.str());
+      if (find_table(nested) != nullptr) {
+        add_list(nested, value);
+        continue;
+      }
       add({table, index, std::string(key.str()), json_of(value), found_text(value), where(value)});
     }
   }

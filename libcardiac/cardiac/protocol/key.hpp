@@ -44,6 +44,7 @@ struct KeyFacts {
   std::string source = {};   ///< where the default comes from
   std::string absent = {};   ///< what happens without the key, where there is no default
   bool required = false;
+  std::vector<std::string> instead = {};  ///< keys of its table any of which makes a required one needless
   std::string used_with =
       {};  ///< key that decides whether this one plays a part: of its table, or "table.key"
   std::vector<std::string> used_values = {};  ///< with these values; empty: when it is given at all
@@ -78,6 +79,7 @@ const std::vector<Table>& tables();
 std::vector<Table> heart_tables();
 std::vector<Table> model_tables();
 std::vector<Table> beat_tables();
+std::vector<Table> circulation_tables();
 
 /// Null when there is none.
 const Table* find_table(const std::string& name);

@@ -24,6 +24,11 @@ struct Unwrapped<std::optional<T>> {
 };
 
 template <class T>
+struct IsList : std::false_type {};
+template <class T>
+struct IsList<std::vector<T>> : std::true_type {};
+
+template <class T>
 constexpr Kind kind_of() {
   if constexpr (std::is_enum_v<T>) return Kind::choice;
   if constexpr (std::is_same_v<T, double>) return Kind::number;
@@ -145,7 +150,7 @@ class TableBuilder {
   }
 
  private:
-  static constexpr bool is_list = std::is_same_v<Held, std::vector<RegionOverride>>;
+  static constexpr bool is_list = IsList<Held>::value;
 
   static auto& opened(Held& held, std::size_t entry) {
     if constexpr (is_list) {

@@ -48,11 +48,29 @@ constexpr Names<2> names_of(FibreSource) {
 constexpr Names<1> names_of(FibreRule) {
   return {"helix"};
 }
-constexpr Names<2> names_of(ActivationMode) {
-  return {"uniform", "sites"};
+constexpr Names<4> names_of(ActivationMode) {
+  return {"uniform", "sites", "array", "table"};
 }
-constexpr Names<1> names_of(ContractionModel) {
-  return {"bestel_clement_sorine_simplified"};
+constexpr Names<2> names_of(ContractionModel) {
+  return {"bestel_clement_sorine_simplified", "table"};
+}
+constexpr Names<3> names_of(Repeats) {
+  return {"auto", "yes", "no"};
+}
+constexpr Names<4> names_of(Loop) {
+  return {"windkessel", "closed_2022", "network", "svzerod"};
+}
+constexpr Names<5> names_of(CompartmentType) {
+  return {"vessel", "chamber", "ventricle", "pressure", "junction"};
+}
+constexpr Names<2> names_of(CavityName) {
+  return {"lv", "rv"};
+}
+constexpr Names<3> names_of(ElementType) {
+  return {"resistance", "valve", "pump"};
+}
+constexpr Names<3> names_of(ValveLaw) {
+  return {"smooth", "arctan", "tanh"};
 }
 constexpr Names<1> names_of(Base) {
   return {"clamped"};

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <sstream>
 
+#include <cardiac/protocol/build_network.hpp>
 #include <cardiac/protocol/entries.hpp>
 #include <cardiac/protocol/key.hpp>
 #include <cardiac/protocol/nearest_key.hpp>
@@ -117,7 +118,10 @@ void check_required(const Protocol& protocol, const std::vector<Entry>& entries,
         const auto given = [&](const Entry& place) {
           return std::ranges::find_if(entries, [&](const Entry& e) { return e.same_place(place); });
         };
-        if (!key.facts.required || given(wanted) != entries.end()) continue;
+        const bool other = std::ranges::any_of(key.facts.instead, [&](const std::string& name) {
+          return given({table.name, index, name, {}, {}, {}}) != entries.end();
+        });
+        if (!key.facts.required || other || given(wanted) != entries.end()) continue;
         const auto place = given(header);
         throw InputError((place == entries.end() ? source : place->where) + ": " +
                          key_path(table.name, index, key.name) + ": missing; expected " + expectation(key));
@@ -185,6 +189,7 @@ Protocol parse_protocol(const std::string& text, const std::filesystem::path& so
   const Place place = place_in(entries, source.string());
   fill_scheme(protocol);
   check_rules(protocol, place);
+  build_network(protocol, place);
   fill_presets(protocol, protocol.anatomy.scheme == Scheme::aha29);
   const Entry local{"reduction", 0, "local_bulk_modulus_kPa", {}, {}, {}};
   if (std::ranges::none_of(entries, [&](const Entry& entry) { return entry.same_place(local); }))

@@ -48,6 +48,14 @@ PlanItem cavity_item(const Protocol& protocol) {
 }
 
 PlanItem circulation_item(const Protocol& protocol) {
+  if (protocol.circulation && protocol.circulation->network) {
+    const CirculationNetwork& network = *protocol.circulation->network;
+    return {"circulation", true,
+            "network of " + std::to_string(network.compartments.size()) + " compartments and " +
+                std::to_string(network.elements.size()) + " elements"};
+  }
+  if (protocol.circulation && protocol.circulation->loop == Loop::closed_2022)
+    return {"circulation", true, "closed loop with atria of Regazzoni 2022"};
   if (protocol.circulation)
     return {"circulation", true,
             protocol.anatomy.scheme == Scheme::aha29 ? "closed loop of two windkessels with four valves"

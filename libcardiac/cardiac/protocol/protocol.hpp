@@ -14,6 +14,8 @@ namespace cardiac {
 struct Protocol : Scene {
   protocol::Mesh mesh;
   protocol::Anatomy anatomy;
+  std::vector<protocol::NetworkCompartment> compartments;  ///< of the circulation's network
+  std::vector<protocol::NetworkElement> elements;
 
   std::filesystem::path directory;    ///< of the protocol file; mesh.file is relative to it
   std::vector<std::string> warnings;  ///< keys that were given but play no part, each with its reason

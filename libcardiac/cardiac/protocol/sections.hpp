@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include <cardiac/circulation/network.hpp>
 #include <cardiac/scene/scene.hpp>
 
 /// The tables of a protocol that are no part of its scene: where the mesh is and how it lies.
@@ -38,6 +39,30 @@ struct Anatomy {
   std::optional<Vector3> long_axis;           ///< apex to base; absent: found on the mesh
   std::optional<Vector3> anterior_direction;  ///< absent: by a point, else +y
   std::optional<Vector3> septum_point, rv_insertion_point, mitral_point;  ///< in the unit of the mesh
+};
+
+/// A compartment and an element of a circulation's network as the file tells them, in units of the scene;
+/// build_network makes the network.
+struct NetworkCompartment {
+  std::string name;
+  CompartmentType type = CompartmentType::vessel;
+  CavityName cavity = CavityName::lv;
+  double compliance_mm3_per_kPa = 0, pressure_kPa = 0;
+  double active_kPa_per_mm3 = 0, passive_kPa_per_mm3 = 0, unstressed_mm3 = 0, volume_mm3 = 60 * mm3_per_mL;
+  double onset_ms = 0, contraction_ms = 170, relaxation_ms = 170;
+};
+struct NetworkElement {
+  std::string name, from, to;
+  ElementType type = ElementType::resistance;
+  double resistance_kPa_ms_per_mm3 = 0, inertance_kPa_ms2_per_mm3 = 0, stenosis_kPa_ms2_per_mm6 = 0;
+  double flow_mm3_per_ms = 0;
+  std::optional<double> leak_kPa_ms_per_mm3;
+  ValveLaw law = ValveLaw::smooth;
+  double smoothing_kPa = Valve{}.smoothing_kPa, sharpness_per_kPa = 200 / kPa_per_mmHg;
+  double series_kPa_ms_per_mm3 = 0;
+  std::optional<std::string> between;
+  double head_kPa = 0;
+  std::optional<double> pump_flow_mm3_per_ms;
 };
 
 }  // namespace cardiac::protocol

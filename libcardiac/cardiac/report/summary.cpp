@@ -44,7 +44,9 @@ Json haemodynamics_json(const Haemodynamics& h) {
   for (const ValveVolumes& valve : h.valves)
     valves[valve.name] = {{"forward_mL", number(valve.forward_mL)},
                           {"regurgitant_mL", number(valve.regurgitant_mL)},
-                          {"regurgitant_percent", number(valve.regurgitant_percent)}};
+                          {"regurgitant_percent", number(valve.regurgitant_percent)},
+                          {"mean_gradient_mmHg", number(valve.mean_gradient_mmHg)},
+                          {"peak_gradient_mmHg", number(valve.peak_gradient_mmHg)}};
   return {{"cardiac_output_L_per_min", number(h.cardiac_output_L_per_min)},
           {"stroke_work_mmHg_mL", number(h.stroke_work_mmHg_mL)},
           {"stroke_work_mJ", number(h.stroke_work_mJ)},
@@ -54,7 +56,19 @@ Json haemodynamics_json(const Haemodynamics& h) {
           {"arterial_systolic_mmHg", number(h.arterial_systolic_mmHg)},
           {"arterial_diastolic_mmHg", number(h.arterial_diastolic_mmHg)},
           {"venous_mean_mmHg", number(h.venous_mean_mmHg)},
+          {"pressure_volume_area_mmHg_mL", number(h.pressure_volume_area_mmHg_mL)},
+          {"pressure_volume_area_mJ", number(h.pressure_volume_area_mJ)},
+          {"arterial_elastance_mmHg_per_mL", number(h.arterial_elastance_mmHg_per_mL)},
           {"valves", valves}};
+}
+
+Json balances_json(const std::vector<FlowBalance>& balances) {
+  Json out = Json::object();
+  for (const FlowBalance& b : balances)
+    out[b.name] = {{"mean_inflow_mL_per_s", number(b.mean_inflow_mL_per_s)},
+                   {"mean_outflow_mL_per_s", number(b.mean_outflow_mL_per_s)},
+                   {"error_percent", number(b.error_percent)}};
+  return out;
 }
 
 // Seconds of the solve and what they went to; the rest is the integrator's own work and the output states.
@@ -150,6 +164,7 @@ std::string summary_text(const BeatResult& r, const RunInfo& info) {
                {"real_time_factor", number(r.wall_solve_s / r.simulated_time_s)},
                {"ventricles", ventricles},
                {"haemodynamics", haemodynamics},
+               {"flow_balances", balances_json(r.balances)},
                {"strain", global_json(r.strain)},
                {"min_det_F", number(r.min_det_F)},
                {"max_det_F", number(r.max_det_F)}};

@@ -118,13 +118,31 @@ void read_haemodynamics(const Reader& reader, BeatResult& r) {
     json.at("arterial_systolic_mmHg") >> h.arterial_systolic_mmHg;
     json.at("arterial_diastolic_mmHg") >> h.arterial_diastolic_mmHg;
     json.at("venous_mean_mmHg") >> h.venous_mean_mmHg;
+    if (json.has("pressure_volume_area_mJ")) {
+      json.at("pressure_volume_area_mmHg_mL") >> h.pressure_volume_area_mmHg_mL;
+      json.at("pressure_volume_area_mJ") >> h.pressure_volume_area_mJ;
+      json.at("arterial_elastance_mmHg_per_mL") >> h.arterial_elastance_mmHg_per_mL;
+    }
     for (const auto& [valve_name, valve] : json.at("valves").entries()) {
       ValveVolumes& volumes = h.valves.emplace_back();
       volumes.name = valve_name;
       valve.at("forward_mL") >> volumes.forward_mL;
       valve.at("regurgitant_mL") >> volumes.regurgitant_mL;
       valve.at("regurgitant_percent") >> volumes.regurgitant_percent;
+      if (!valve.has("mean_gradient_mmHg")) continue;  // of an earlier version
+      valve.at("mean_gradient_mmHg") >> volumes.mean_gradient_mmHg;
+      valve.at("peak_gradient_mmHg") >> volumes.peak_gradient_mmHg;
     }
+  }
+}
+
+void read_balances(const Reader& reader, BeatResult& r) {
+  for (const auto& [name, json] : reader.entries()) {
+    FlowBalance& balance = r.balances.emplace_back();
+    balance.name = name;
+    json.at("mean_inflow_mL_per_s") >> balance.mean_inflow_mL_per_s;
+    json.at("mean_outflow_mL_per_s") >> balance.mean_outflow_mL_per_s;
+    json.at("error_percent") >> balance.error_percent;
   }
 }
 
@@ -212,6 +230,7 @@ StoredResult parse_summary(const std::string& text, const std::filesystem::path&
   if (r.has_beat) read_timing(reader.at("timing"), r.cost);
   read_ventricles(reader.at("ventricles"), r);
   read_haemodynamics(reader.at("haemodynamics"), r);
+  if (reader.has("flow_balances")) read_balances(reader.at("flow_balances"), r);
   read_global(reader.at("strain"), r.strain);
   if (reader.has("right_strain")) read_global(reader.at("right_strain"), r.right_strain.emplace());
   reader.at("min_det_F") >> r.min_det_F;

@@ -22,19 +22,10 @@ using polyaffine::Vector;
 
 namespace {
 
-// Of the cavities, kPa.
-Vector filling_pressures(const Ventricle& ventricle, const scene::Circulation& c) {
-  const Vector both{{c.filling_pressure_kPa, c.right_filling_pressure_kPa}};
-  return both.head(std::ssize(ventricle.cavities));
-}
-
 // The state of a wall filled to the atrial pressures.
-HeartState filled_state(const Ventricle& ventricle, const scene::Circulation& c, const Vector& at) {
-  HeartState out{0, at, ventricle.cavity_volumes(at), filling_pressures(ventricle, c)};
-  out.vessels_kPa = Vector{{c.initial_aortic_pressure_kPa}};
-  if (ventricle.cavities.size() > 1)
-    out.vessels_kPa = Vector{{c.initial_aortic_pressure_kPa, c.initial_pulmonary_pressure_kPa,
-                              c.filling_pressure_kPa, c.right_filling_pressure_kPa}};
+HeartState filled_state(const Ventricle& ventricle, const CirculationStart& start, const Vector& at) {
+  HeartState out{0, at, ventricle.cavity_volumes(at), start.filling_kPa};
+  out.vessels_kPa = start.states;
   return out;
 }
 
@@ -49,10 +40,9 @@ void add_cost(const polyaffine::SystemCost& more, SolveCost& sum) {
 }
 
 // The wall in equilibrium at the filling pressure. On failure the path says so.
-bool fill(const Ventricle& ventricle, const scene::Circulation& circulation, const Vector& tension,
+bool fill(const Ventricle& ventricle, const Vector& pressures_kPa, const Vector& tension,
           const RunControl& control, HeartPath& path, Vector& c) {
-  const polyaffine::System system =
-      loaded_ventricle(ventricle, {filling_pressures(ventricle, circulation), tension});
+  const polyaffine::System system = loaded_ventricle(ventricle, {pressures_kPa, tension});
   polyaffine::LoadOptions options;
   options.interrupted = [&] { return stop_wanted(control); };
   const auto report = polyaffine::load_stepping(system, *system.make_linear(), c, options);
@@ -60,7 +50,7 @@ bool fill(const Ventricle& ventricle, const scene::Circulation& circulation, con
   path.cuts += report.cuts;
   warn_of_instability(report, "filling pressure", path);
   if (report.converged()) return true;
-  const double filling_mmHg = circulation.filling_pressure_kPa / kPa_per_mmHg;
+  const double filling_mmHg = pressures_kPa[0] / kPa_per_mmHg;
   path.stop_reason = "filling stopped at " + std::to_string(report.reached * filling_mmHg) + " of " +
                      std::to_string(filling_mmHg) + " mmHg: " + why_it_stopped(report, control);
   return false;
@@ -72,43 +62,40 @@ double stroke_volume(const std::vector<HeartState>& steps) {
   return volume(*high) - volume(*low);
 }
 
-// Beats that the slowest arteries need to come nearer by their whole distance, 1/(1 − e^(−T/RC)).
-double beats_of_arteries(const Scene& scene) {
-  const scene::Circulation& c = *scene.circulation;
-  const double RC_ms =
-      std::max(c.peripheral_resistance_kPa_ms_per_mm3 * c.compliance_mm3_per_kPa,
-               c.pulmonary_peripheral_resistance_kPa_ms_per_mm3 * c.pulmonary_compliance_mm3_per_kPa);
-  return -1 / std::expm1(-scene.time.beat_ms / RC_ms);
+// Beats that the slowest vessels need to come nearer by their whole distance, 1/(1 − e^(−T/RC)).
+double beats_of_vessels(const CirculationModel& circulation, const Scene& scene) {
+  const double RC_ms = circulation.slowest_ms();
+  return RC_ms > 0 ? -1 / std::expm1(-scene.time.beat_ms / RC_ms) : 1;
 }
 
-// Of the last beat from its limit; where no estimate could be used, no less than the arteries may need.
-double distance_percent(const HeartPath& path, int volumes, const Scene& scene) {
-  const CycleEstimate estimate = estimate_limit_cycle(path.cycle, volumes);
-  return estimate.distance_percent * (estimate.extrapolated ? 1 : beats_of_arteries(scene));
+// Of the last beat from its limit; where no estimate could be used, no less than the vessels may need.
+double distance_percent(const HeartPath& path, const CirculationModel& circulation, const Scene& scene) {
+  const CycleEstimate estimate = estimate_limit_cycle(path.cycle, circulation.num_cavities());
+  return estimate.distance_percent * (estimate.extrapolated ? 1 : beats_of_vessels(circulation, scene));
 }
 
 // The limit cycle is reached when the last beat is near the one that would repeat itself, and the beat before
 // confirms it.
-bool closed(const HeartPath& path, int volumes, const Scene& scene) {
+bool closed(const HeartPath& path, const CirculationModel& circulation, const Scene& scene) {
   const double tolerance_percent = scene.time.limit_cycle_tolerance_percent;
   const auto& sv = path.stroke_volumes_mm3;
   return sv.size() > 1 &&
          std::abs(sv.back() - sv[sv.size() - 2]) <= tolerance_percent / 100 * std::abs(sv.back()) &&
-         distance_percent(path, volumes, scene) <= tolerance_percent;
+         distance_percent(path, circulation, scene) <= tolerance_percent;
 }
 
-std::string unclosed_warning(const HeartPath& path, int volumes, const Scene& scene) {
+std::string unclosed_warning(const HeartPath& path, const CirculationModel& circulation, const Scene& scene) {
   const scene::Time& time = scene.time;
   std::ostringstream out;
   out << "the pressure-volume loop did not close to " << time.limit_cycle_tolerance_percent
       << " % (time.limit_cycle_tolerance_percent) in " << path.beats
       << (path.beats == 1 ? " beat: " : " beats: ");
   if (path.cycle.size() > 1)
-    out << "the last is about " << std::setprecision(2) << distance_percent(path, volumes, scene)
+    out << "the last is about " << std::setprecision(2) << distance_percent(path, circulation, scene)
         << " % from the one that would repeat itself; ";
   else
     out << "one beat does not tell how far it is from the one that would repeat itself; ";
-  if (is_noise(path.cycle, volumes))
+  if (is_noise(path.cycle, circulation.num_cavities()))
     out << "from beat to beat this is noise of the time integration and comes no nearer: lower "
            "time.relative_tolerance ("
         << time.relative_tolerance << "), time.absolute_tolerance_mm (" << time.absolute_tolerance_mm
@@ -123,12 +110,17 @@ void extrapolate(const CoupledHeart& heart, polyaffine::LinearSystem& linear, do
                  Vector& y, Vector& rate) {
   const CycleEstimate limit = estimate_limit_cycle(path.cycle, heart.num_cavities());
   if (!limit.extrapolated) return;
-  Vector wanted = limit.pressures_kPa;
+  Vector wanted = limit.stores;
+  const polyaffine::Unknowns stores{heart.vessels.first, static_cast<int>(wanted.size())};
   if (heart.circulation->is_closed()) {
-    const Vector compliances = heart.circulation->compliances().tail(wanted.size());
-    wanted.array() += compliances.dot(heart.vessels.of(y) - wanted) / compliances.sum();
+    const int pressures = heart.circulation->kinds().pressures;
+    const Vector compliances = heart.circulation->compliances().segment(heart.num_cavities(), pressures);
+    const Vector missing = stores.of(y) - wanted;
+    wanted.head(pressures).array() +=
+        (compliances.dot(missing.head(pressures)) + missing.tail(wanted.size() - pressures).sum()) /
+        compliances.sum();
   }
-  heart.vessels.of(y) = wanted;
+  stores.of(y) = wanted;
   add_cost(make_consistent(heart, linear, t, y, rate), path.cost);
 }
 
@@ -146,7 +138,8 @@ bool run_beat(const CoupledHeart& heart, polyaffine::LinearSystem& linear, const
   path.outputs = path.steps;
   polyaffine::DaeIntegrator ida(heart.system, linear, dae_options(scene.time), begin, y, rate);
   BeatInstants instants(heart, begin, onset_ms, y, path);
-  CycleBeat cycle{heart.states(y), {}, 0};
+  const int stores = heart.circulation->num_stores();
+  CycleBeat cycle{heart.states(y).head(stores), {}, 0};
   std::string stop;
   while (stop.empty() && ida.time() < end - 1e-9 * period) {
     const double from = ida.time();
@@ -184,7 +177,7 @@ bool run_beat(const CoupledHeart& heart, polyaffine::LinearSystem& linear, const
   path.cost.convergence_failures += counters.convergence_failures;
   add_cost(ida.cost(), path.cost);
   if (stop.empty()) {
-    cycle.end = heart.states(y);
+    cycle.end = heart.states(y).head(stores);
     cycle.stroke_mm3 = stroke_volume(path.steps);
     path.stroke_volumes_mm3.push_back(cycle.stroke_mm3);
     path.cycle.push_back(std::move(cycle));
@@ -199,13 +192,13 @@ bool run_beat(const CoupledHeart& heart, polyaffine::LinearSystem& linear, const
 bool begin_beats(const Ventricle& ventricle, const Scene& scene, const RunControl& control,
                  const CoupledHeart& heart, polyaffine::LinearSystem& linear, Vector& y, Vector& rate,
                  HeartPath& path) {
-  const scene::Circulation& circulation = *scene.circulation;
+  const CirculationStart start = circulation_start(ventricle.cavities.size() > 1, scene);
   Vector c = Vector::Zero(ventricle.num_coefficients());
   const auto begin = std::chrono::steady_clock::now();
-  const bool filled = fill(ventricle, circulation, ventricle.contraction->tension(0), control, path, c);
+  const bool filled = fill(ventricle, start.filling_kPa, ventricle.contraction->tension(0), control, path, c);
   path.cost.filling_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (!filled) return false;
-  y = heart.pack(filled_state(ventricle, circulation, c));
+  y = heart.pack(filled_state(ventricle, start, c));
   rate = Vector::Zero(y.size());
   add_cost(make_consistent(heart, linear, 0, y, rate), path.cost);
   return true;
@@ -217,10 +210,10 @@ void take_up(const Checkpoint& from, const CoupledHeart& heart, Vector& y, Vecto
     throw polyaffine::InputError("the checkpoint holds " + std::to_string(from.y.size()) +
                                  " unknowns, expected " + std::to_string(heart.system.size()));
   for (const CycleBeat& beat : from.cycle)
-    if (beat.start.size() != heart.circulation->num_states())
+    if (beat.start.size() != heart.circulation->num_stores())
       throw polyaffine::InputError("the checkpoint's beats hold " + std::to_string(beat.start.size()) +
                                    " states of the circulation, expected " +
-                                   std::to_string(heart.circulation->num_states()));
+                                   std::to_string(heart.circulation->num_stores()));
   y = from.y;
   rate = from.rate;
   path.beats = from.beats;
@@ -250,7 +243,7 @@ Checkpoint checkpoint(const HeartPath& path, const Vector& y, const Vector& rate
 
 HeartPath run_beats(const Ventricle& ventricle, const Scene& scene, const RunControl& control) {
   const CoupledHeart heart =
-      couple(ventricle, circulation_model(ventricle.cavities.size() > 1, *scene.circulation), scene.time);
+      couple(ventricle, circulation_model(ventricle.cavities.size() > 1, scene), scene.time);
   // One for all beats: its analysis takes as long as some steps.
   const auto linear = heart.system.make_linear();
   const int cavities = heart.num_cavities();
@@ -267,11 +260,12 @@ HeartPath run_beats(const Ventricle& ventricle, const Scene& scene, const RunCon
     going_on = run_beat(heart, *linear, scene, *ventricle.contraction, control, y, rate, path);
     if (!going_on) break;
     ++path.beats;
-    is_closed = closed(path, cavities, scene);
+    is_closed = closed(path, *heart.circulation, scene);
     path.completed = is_closed || path.beats == scene.time.max_beats || is_noise(path.cycle, cavities);
     if (!path.completed) extrapolate(heart, *linear, path.simulated_ms, path, y, rate);
   }
-  if (path.completed && !is_closed) path.warnings.push_back(unclosed_warning(path, cavities, scene));
+  if (path.completed && !is_closed)
+    path.warnings.push_back(unclosed_warning(path, *heart.circulation, scene));
   return path;
 }
 

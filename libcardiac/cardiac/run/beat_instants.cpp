@@ -18,12 +18,12 @@ constexpr int kBisections = 12;  // of such a part: 1e-3 ms of the longest step
 enum Row { inlet_drop, outlet_drop, filling_flow, rows };
 
 // Of each cavity: the pressure drops over its valves (kPa) and the rate of its volume (mm³/ms).
-Matrix signs(const CoupledHeart& heart, const Vector& y) {
+Matrix signs(const CoupledHeart& heart, double t, const Vector& y) {
   const CirculationModel& circulation = *heart.circulation;
   const Vector z = heart.states(y), p = heart.pressures.of(y);
   Matrix out(static_cast<Eigen::Index>(rows), p.size());
   for (int k = 0; k < p.size(); ++k) {
-    const CirculationModel::Side side = circulation.side(k, z, p);
+    const CirculationModel::Side side = circulation.side(k, t, z, p);
     out.col(k) << side.before_kPa - p[k], p[k] - side.capacitor_kPa,
         side.inflow_mm3_per_ms - side.outflow_mm3_per_ms;
   }
@@ -49,7 +49,11 @@ double contraction_onset_ms(const ContractionField& contraction) {
 
 BeatInstants::BeatInstants(const CoupledHeart& heart, double begin_ms, double onset_ms, const Vector& y,
                            HeartPath& path)
-    : heart_(heart), begin_ms_(begin_ms), onset_ms_(onset_ms), path_(path), before_(signs(heart, y)) {
+    : heart_(heart),
+      begin_ms_(begin_ms),
+      onset_ms_(onset_ms),
+      path_(path),
+      before_(signs(heart, begin_ms, y)) {
   path_.instants.assign(static_cast<std::size_t>(before_.cols()), {});
   path_.contraction_begins.reset();
   path_.circulation.clear();
@@ -75,7 +79,7 @@ void BeatInstants::follow(const polyaffine::DaeIntegrator& ida, double from_ms) 
     const double low = from_ms + (i - 1) * part, high = i == kParts ? ida.time() : from_ms + i * part;
     ida.interpolate(high, y);
     sample(high, y);
-    const Matrix now = signs(heart_, y);
+    const Matrix now = signs(heart_, high, y);
     for (int k = 0; k < now.cols(); ++k)
       for (int row = 0; row < rows; ++row) {
         const bool falls = before_(row, k) > 0 && now(row, k) <= 0;
@@ -85,7 +89,7 @@ void BeatInstants::follow(const polyaffine::DaeIntegrator& ida, double from_ms) 
         for (int n = 0; n < kBisections; ++n) {
           const double middle = (a + b) / 2;
           ida.interpolate(middle, y);
-          ((signs(heart_, y)(row, k) > 0) == falls ? a : b) = middle;
+          ((signs(heart_, middle, y)(row, k) > 0) == falls ? a : b) = middle;
         }
         CavityInstants& instants = path_.instants[static_cast<std::size_t>(k)];
         if (row == inlet_drop) keep(instants.inlet_closes, state_at(b), k, true);

@@ -9,6 +9,9 @@ namespace cardiac {
 /// whole.
 std::optional<Haemodynamics> haemodynamics(const HeartPath& path, const Scene& scene, int cavity);
 
+/// What flowed through every compliance in the last beat, by the same rule. Empty unless the beat is whole.
+std::vector<FlowBalance> flow_balances(const HeartPath& path, const Scene& scene);
+
 /// The pressures, volumes and flows of HeartPath::circulation with their names; empty without circulation.
 CirculationTable circulation_table(const HeartPath& path, const Scene& scene);
 

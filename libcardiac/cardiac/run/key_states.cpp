@@ -26,12 +26,12 @@ struct Surroundings {
 };
 
 Surroundings surroundings(const HeartPath& path, const Scene& scene, int cavity) {
-  const auto model = circulation_model(path.steps.front().volumes_mm3.size() > 1, *scene.circulation);
+  const auto model = circulation_model(path.steps.front().volumes_mm3.size() > 1, scene);
   const auto n = static_cast<Eigen::Index>(path.steps.size());
   Surroundings out{Vector(n), Vector(n), Vector(n), {}};
   for (Eigen::Index k = 0; k < n; ++k) {
     const HeartState& s = path.steps[static_cast<std::size_t>(k)];
-    const CirculationModel::Side side = model->side(cavity, s.circulation(), s.pressures_kPa);
+    const CirculationModel::Side side = model->side(cavity, s.time_ms, s.circulation(), s.pressures_kPa);
     out.before[k] = side.before_kPa;
     out.pressure[k] = pressure(s, cavity);
     out.capacitor[k] = side.capacitor_kPa;
@@ -165,25 +165,26 @@ KeyStates key_states(const HeartPath& path, const Scene& scene, int cavity) {
 
 std::vector<std::string> valve_warnings(const HeartPath& path, const Scene& scene, int cavity) {
   if (path.instants.empty() || !path.completed) return {};
-  const bool left = cavity == 0;
-  const std::string inlet = left ? "mitral" : "tricuspid", outlet = left ? "aortic" : "pulmonary";
+  const auto model = circulation_model(path.steps.front().volumes_mm3.size() > 1, scene);
+  auto [before, ventricle, artery, arteries, inlet, outlet, vessels] = model->names(cavity);
+  std::ranges::replace(inlet, '_', ' ');
+  std::ranges::replace(outlet, '_', ' ');
   const CavityInstants& at = path.instants[static_cast<std::size_t>(cavity)];
   std::vector<std::string> out;
   const Surroundings around = surroundings(path, scene, cavity);
   if (!ejects(around))
     out.push_back("the " + outlet +
-                  " valve never opens: the pressure of the ventricle stays below that of the arteries");
+                  " never opens: the pressure of the ventricle stays below that of the arteries");
   else if (!at.outlet_closes)
     out.push_back(
         "the " + outlet +
-        " valve never closes: the pressure of the arteries never exceeds that of the ventricle (a "
+        " never closes: the pressure of the arteries never exceeds that of the ventricle (a "
         "peripheral resistance or compliance too small for this heart?); end systole is the smallest "
         "volume");
   if (!at.inlet_closes && !holds_back(around))
-    out.push_back(
-        "the " + inlet +
-        " valve never closes: the pressure of the ventricle never exceeds that before it; end diastole "
-        "is the largest volume");
+    out.push_back("the " + inlet +
+                  " never closes: the pressure of the ventricle never exceeds that before it; end diastole "
+                  "is the largest volume");
   return out;
 }
 

@@ -45,6 +45,7 @@ std::vector<const CycleBeat*> chosen(const std::vector<CycleBeat>& beats, int vo
 CycleEstimate estimate_limit_cycle(const std::vector<CycleBeat>& beats, int volumes) {
   const CycleBeat& last = beats.back();
   const auto count = last.start.size() - volumes;
+  if (count == 0) return {Vector(), 0, false};
   const Vector size = last.end.tail(count).cwiseAbs();
   const auto scaled = [&](const Vector& x) { return Vector(x.tail(count).cwiseQuotient(size)); };
   const Vector g = scaled(last.end - last.start);
@@ -75,7 +76,7 @@ CycleEstimate estimate_limit_cycle(const std::vector<CycleBeat>& beats, int volu
   const double of_stroke = std::max(std::abs(stroke - last.stroke_mm3),
                                     (volume - last.start.head(volumes)).cwiseAbs().maxCoeff()) /
                            std::abs(last.stroke_mm3);
-  out.pressures_kPa = limit.cwiseProduct(size);
+  out.stores = limit.cwiseProduct(size);
   const double unexplained = kUnexplained * (g - dg * theta).cwiseAbs().maxCoeff();
   out.distance_percent = 100 * (std::max(away.cwiseAbs().maxCoeff(), of_stroke) + unexplained);
   out.extrapolated = true;
@@ -84,7 +85,7 @@ CycleEstimate estimate_limit_cycle(const std::vector<CycleBeat>& beats, int volu
 
 bool is_noise(const std::vector<CycleBeat>& beats, int volumes) {
   const auto count = std::ssize(beats);
-  if (count <= kNoiseBeats + 1) return false;
+  if (count <= kNoiseBeats + 1 || beats.front().start.size() == volumes) return false;
   double before = INFINITY, lately = INFINITY;
   bool turns = false;
   for (std::ptrdiff_t n = 0; n < count; ++n) {

@@ -153,6 +153,7 @@ BeatResult describe_path(const Ventricle& ventricle, const std::vector<ControlNo
     for (std::size_t k = 0; k < out.ventricles.size(); ++k)
       out.ventricles[k].haemodynamics = haemodynamics(path, scene, static_cast<int>(k));
     out.circulation = circulation_table(path, scene);
+    out.balances = flow_balances(path, scene);
   }
   add_motion(ventricle, nodes, scene, path, key, out);
   warn_of_crushing(d.sparse, out);

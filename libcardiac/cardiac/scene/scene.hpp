@@ -11,7 +11,11 @@
 
 namespace cardiac {
 struct TunedModel;
-}
+struct CirculationNetwork;
+struct ActivationMap;
+struct GivenCurve;
+struct GivenCavities;
+}  // namespace cardiac
 
 /// The parts of a scene, in mm, ms, kPa and mg. Their initial values are those of a healthy human heart, the
 /// defaults of the protocol file; meaning, range and source of each stand in the protocol's key table and are
@@ -73,7 +77,7 @@ struct Fibres {
   double rv_endo_angle_deg = 70, rv_epi_angle_deg = -70;  ///< in the right free wall
 };
 
-enum class ActivationMode { uniform, sites };
+enum class ActivationMode { uniform, sites, array, table };
 struct Activation {
   ActivationMode mode = ActivationMode::uniform;
   double onset_ms = 100;
@@ -81,9 +85,12 @@ struct Activation {
   std::vector<Vector3> sites_mm;   ///< further sites: the nearest vertex of the mesh
   double conduction_along_fibre_mm_per_ms = 0.6;
   double conduction_across_fibre_mm_per_ms = 0.2;
+  std::optional<std::string> array_ms, array_s;  ///< name of a point array of the mesh file
+  std::optional<std::string> file;               ///< a table of points and their times
+  std::shared_ptr<const ActivationMap> map;      ///< what the array or the table says; null: not read yet
 };
 
-enum class ContractionModel { bestel_clement_sorine_simplified };
+enum class ContractionModel { bestel_clement_sorine_simplified, table };
 struct Contraction {
   ContractionModel model = ContractionModel::bestel_clement_sorine_simplified;
   double contractility_kPa = 150;
@@ -92,14 +99,24 @@ struct Contraction {
   std::optional<double> activation_duration_ms;  ///< set by the heart rate when the file does not name it
   double switch_width_ms = 5;
   double cross_fibre_fraction = 0.25;
+  std::optional<std::string> tension_file;    ///< of the model table
+  std::shared_ptr<const GivenCurve> tension;  ///< what it says, kPa from the excitation of a point on
 };
 
+enum class Repeats { automatic, yes, no };
 struct Cavities {
-  double pressure_kPa = 0;        ///< prescribed, raised from zero
-  double right_pressure_kPa = 0;  ///< the same of the right ventricle
+  double pressure_kPa = 0;                                ///< prescribed, raised from zero
+  double right_pressure_kPa = 0;                          ///< the same of the right ventricle
+  std::optional<std::string> pressure_file, volume_file;  ///< either of them instead
+  Repeats repeats =
+      Repeats::automatic;  ///< whether what the file gives is one beat; automatic: by its length
+  std::shared_ptr<const GivenCavities> curves;  ///< what the file says
 };
 
+enum class Loop { windkessel, closed_2022, network, svzerod };
+enum class SvZeroDUnits { mmHg_mL_s, dyn_cm_s, Pa_m_s };  ///< of pressure, length or volume, and time
 struct Circulation {
+  Loop loop = Loop::windkessel;
   double filling_pressure_kPa = 10 * kPa_per_mmHg;
   double mitral_resistance_kPa_ms_per_mm3 = 0.01 * resistance_per_mmHg_s_per_mL;
   double aortic_valve_resistance_kPa_ms_per_mm3 = 0.007 * resistance_per_mmHg_s_per_mL;
@@ -119,6 +136,15 @@ struct Circulation {
   double pulmonary_venous_compliance_mm3_per_kPa = 16 * compliance_per_mL_per_mmHg;
   double systemic_venous_compliance_mm3_per_kPa = 16 * compliance_per_mL_per_mmHg;
   double initial_pulmonary_pressure_kPa = 12 * kPa_per_mmHg;
+  std::optional<double> mitral_leak_resistance_kPa_ms_per_mm3;  ///< from here on of both: absent: tight
+  std::optional<double> tricuspid_leak_resistance_kPa_ms_per_mm3;
+  std::optional<double> pulmonary_leak_resistance_kPa_ms_per_mm3;
+  double mitral_stenosis_kPa_ms2_per_mm6 = 0, aortic_stenosis_kPa_ms2_per_mm6 = 0;  ///< of q²
+  double tricuspid_stenosis_kPa_ms2_per_mm6 = 0, pulmonary_stenosis_kPa_ms2_per_mm6 = 0;
+  std::optional<SvZeroDUnits> svzerod_units;
+  std::optional<std::string> svzerod_file;            ///< of the loop svzerod
+  std::optional<std::string> lv_chamber, rv_chamber;  ///< chambers of that file that the mesh stands for
+  std::shared_ptr<const CirculationNetwork> network;  ///< of the loops network and svzerod
 };
 
 enum class Base { clamped };

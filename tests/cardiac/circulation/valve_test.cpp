@@ -71,5 +71,60 @@ TEST(Valve, CountsAsOpenUntilThePressureReallyTurns) {
   EXPECT_FALSE(is_open(valve, -0.6 * kPa_per_mmHg));
 }
 
+TEST(Valve, OfAStenosisLosesByTheSquareOfItsFlow) {
+  Valve narrow = valve;
+  narrow.stenosis_kPa_ms2_per_mm6 = 4e-4 * stenosis_per_mmHg_s2_per_mL2;  // an orifice of 1 cm²
+  const double q = valve_flow(narrow, 40 * kPa_per_mmHg).flow_mm3_per_ms / flow_per_mL_per_s;
+  EXPECT_NEAR(0.01 * q + 4e-4 * q * q, 40, 1e-4);
+  EXPECT_NEAR(q, 303.97, 0.01);  // by hand: (√(0.01² + 4 · 4e-4 · 40) − 0.01) / (2 · 4e-4)
+  const double closed = valve_flow(narrow, -100 * kPa_per_mmHg).flow_mm3_per_ms / flow_per_mL_per_s;
+  EXPECT_NEAR(closed, 6.25e-4, 1e-7);
+}
+
+TEST(Valve, SlopesOfEveryLawAreDerivatives) {
+  Valve narrow = valve, arctan = valve, tanh = valve;
+  narrow.stenosis_kPa_ms2_per_mm6 = 1e-3 * stenosis_per_mmHg_s2_per_mL2;
+  narrow.leak_kPa_ms_per_mm3 = 100 * valve.resistance_kPa_ms_per_mm3;
+  for (Valve* law : {&arctan, &tanh}) {
+    law->leak_kPa_ms_per_mm3 = 1e4 * valve.resistance_kPa_ms_per_mm3;
+    law->sharpness_per_kPa = 5 / kPa_per_mmHg;
+  }
+  arctan.law = ValveLaw::arctan;
+  tanh.law = ValveLaw::tanh;
+  for (const Valve& law : {narrow, arctan, tanh})
+    for (const double drop : {-5.0, -0.05, -1e-3, 1e-3, 0.02, 3.0}) {
+      const double h = 1e-6;
+      const double difference =
+          (valve_flow(law, drop + h).flow_mm3_per_ms - valve_flow(law, drop - h).flow_mm3_per_ms) / (2 * h);
+      EXPECT_NEAR(valve_flow(law, drop).slope / difference, 1, 2e-6) << drop;
+    }
+}
+
+TEST(Valve, OtherLawsAreOpenAndClosedResistances) {
+  Valve law = valve;
+  law.leak_kPa_ms_per_mm3 = 1e6 * valve.resistance_kPa_ms_per_mm3;
+  law.sharpness_per_kPa = 200 / kPa_per_mmHg;
+  for (const ValveLaw kind : {ValveLaw::arctan, ValveLaw::tanh}) {
+    law.law = kind;
+    const double slack = kind == ValveLaw::tanh ? 1e-9 : 0.02;  // log R is 1e-3 of its range off
+    EXPECT_NEAR(valve_flow(law, 2).flow_mm3_per_ms * law.resistance_kPa_ms_per_mm3, 2, 2 * slack);
+    EXPECT_NEAR(valve_flow(law, -2).flow_mm3_per_ms * law.leak_kPa_ms_per_mm3, -2, 2 * slack);
+  }
+}
+
+TEST(Valve, DropOfAFlowIsResistanceForwardsAndLeakBackwards) {
+  Valve law = valve;
+  law.leak_kPa_ms_per_mm3 = 1e5 * valve.resistance_kPa_ms_per_mm3;
+  law.stenosis_kPa_ms2_per_mm6 = 1e-4 * stenosis_per_mmHg_s2_per_mL2;
+  const auto drop = [&](double q) { return valve_drop(law, q * flow_per_mL_per_s).drop_kPa / kPa_per_mmHg; };
+  EXPECT_NEAR(drop(200), 0.01 * 200 + 1e-4 * 200 * 200, 1e-3);
+  EXPECT_NEAR(drop(-1), -1000, 0.1);  // 1 mL/s through 1000 mmHg·s/mL; δ²/4q is 6e-5 mL/s
+  for (const double q : {-3.0, -0.01, 0.001, 0.3, 100.0}) {
+    const double h = 1e-6 * std::max(std::abs(q), 0.1);
+    const double difference = (valve_drop(law, q + h).drop_kPa - valve_drop(law, q - h).drop_kPa) / (2 * h);
+    EXPECT_NEAR(valve_drop(law, q).slope / difference, 1, 1e-5) << q;
+  }
+}
+
 }  // namespace
 }  // namespace cardiac
