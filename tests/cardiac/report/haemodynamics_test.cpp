@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -69,6 +70,33 @@ TEST(Haemodynamics, AreToldInWordsAndALeakOnlyWhereThereIsOne) {
   r.ventricles[0].isovolumetric_relaxation_change_mL = 0.2;
   EXPECT_EQ(haemodynamics_lines(r.ventricles[0]).size(), 1U);
   EXPECT_TRUE(haemodynamics_lines(test::synthetic_beat().ventricles[0]).empty());
+}
+
+TEST(Haemodynamics, GradientsAndWorkAreToldAndReadBack) {
+  BeatResult r = beat_with_a_leak();
+  Haemodynamics& h = *r.ventricles[0].haemodynamics;
+  h.valves[1].mean_gradient_mmHg = 31.4;
+  h.valves[1].peak_gradient_mmHg = 52;
+  h.valves[0].mean_gradient_mmHg = 1.5;
+  h.pressure_volume_area_mJ = 1294;
+  h.pressure_volume_area_mmHg_mL = 9702;
+  h.arterial_elastance_mmHg_per_mL = 1.523;
+  r.balances = {{"systemic_arteries", 85, 84.9, 0.118}, {"lungs", 80, 60, 25}};
+  const auto lines = haemodynamics_lines(r.ventricles[0]);
+  EXPECT_EQ(lines.at(1), "pressure-volume area 1294 mJ, arterial elastance 1.52 mmHg/mL");
+  EXPECT_EQ(lines.at(2), "aortic valve: gradient 31 mmHg in the mean, 52 mmHg at most");
+  EXPECT_THAT(balance_lines(r), ElementsAre(HasSubstr("lungs: 80.0 mL/s flow in, 60.0 mL/s out (25.0 %)")));
+  const auto back = parse_summary(summary_text(r, test::synthetic_info()), "summary.json").result;
+  const Haemodynamics& read = *back.ventricles[0].haemodynamics;
+  EXPECT_EQ(read.pressure_volume_area_mJ, 1294);
+  EXPECT_EQ(read.pressure_volume_area_mmHg_mL, 9702);
+  EXPECT_EQ(read.arterial_elastance_mmHg_per_mL, 1.523);
+  EXPECT_EQ(read.valves[1].mean_gradient_mmHg, 31.4);
+  EXPECT_EQ(read.valves[1].peak_gradient_mmHg, 52);
+  ASSERT_EQ(back.balances.size(), 2U);
+  const auto lungs = std::ranges::find(back.balances, "lungs", &FlowBalance::name);
+  ASSERT_NE(lungs, back.balances.end());
+  EXPECT_EQ(lungs->mean_outflow_mL_per_s, 60);
 }
 
 TEST(Haemodynamics, TableHasAColumnEachAndNoWordsForWhatIsNotANumber) {
