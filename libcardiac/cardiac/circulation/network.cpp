@@ -62,16 +62,6 @@ std::optional<NetworkFault> fault_of_compartment(const CirculationNetwork& netwo
       return fault("contraction_ms", "missing; expected how long the chamber " + quoted(c.name) +
                                          " contracts and relaxes, above 0 ms");
   }
-  const auto ends = [&](auto member) {
-    return std::ranges::count_if(network.elements, [&](const Element& e) { return e.*member == c.name; });
-  };
-  if (ends(&Element::from) + ends(&Element::to) == 0)
-    return fault("name", "nothing is connected to " + quoted(c.name) + ", expected an element from or to it");
-  if (c.type != CompartmentType::ventricle) return {};
-  const bool filled = has_valve(network, c.name, &Element::to, &Element::from);
-  if (!filled || !has_valve(network, c.name, &Element::from, &Element::to))
-    return fault("name", "found no valve " + std::string(filled ? "from " : "to ") + quoted(c.name) +
-                             ", expected one to a ventricle and one from it");
   return {};
 }
 
@@ -107,6 +97,19 @@ std::optional<NetworkFault> fault_of_element(const CirculationNetwork& network, 
   if (L > 0 || e.series_kPa_ms_per_mm3 > 0 || e.valve.stenosis_kPa_ms2_per_mm6 > 0)
     return fault("law", "found a law beside an inertance, stenosis or series resistance of " +
                             quoted(e.name) + ", expected the law smooth");
+  return {};
+}
+
+// A ventricle fills and empties through valves.
+std::optional<NetworkFault> fault_of_ventricle(const CirculationNetwork& network, std::size_t i) {
+  const Compartment& c = network.compartments[i];
+  const auto fault = [&](const std::string& key, const std::string& text) {
+    return NetworkFault{false, i, key, text};
+  };
+  const bool filled = has_valve(network, c.name, &Element::to, &Element::from);
+  if (!filled || !has_valve(network, c.name, &Element::from, &Element::to))
+    return fault("name", "found no valve " + std::string(filled ? "from " : "to ") + quoted(c.name) +
+                             ", expected one to a ventricle and one from it");
   return {};
 }
 
@@ -167,9 +170,13 @@ std::optional<NetworkFault> fault_of(const CirculationNetwork& network) {
     if (auto fault = fault_of_compartment(network, i)) return fault;
   for (std::size_t i = 0; i < network.elements.size(); ++i)
     if (auto fault = fault_of_element(network, i)) return fault;
-  for (std::size_t i = 0; i < network.compartments.size(); ++i)
-    if (network.compartments[i].type == CompartmentType::junction)
-      if (auto fault = fault_of_junction(network, i)) return fault;
+  for (std::size_t i = 0; i < network.compartments.size(); ++i) {
+    const CompartmentType type = network.compartments[i].type;
+    auto fault = type == CompartmentType::ventricle  ? fault_of_ventricle(network, i)
+                 : type == CompartmentType::junction ? fault_of_junction(network, i)
+                                                     : std::nullopt;
+    if (fault) return fault;
+  }
   return fault_of_parts(network);
 }
 

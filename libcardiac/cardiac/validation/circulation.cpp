@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <cardiac/circulation/closed_loop_2022.hpp>
+#include <cardiac/circulation/network_circulation.hpp>
 #include <cardiac/circulation/windkessel.hpp>
 #include <cardiac/core/units.hpp>
 #include <polyaffine/core/error.hpp>
@@ -73,6 +74,41 @@ void closed_loop(std::vector<Check>& checks) {
   add("lv_peak_mmHg", "mmHg", peak / kPa_per_mmHg, 119.68, 0.005);
 }
 
+// The same loop as a network of compartments, whose junctions, valves and chambers are those of any other.
+void network(std::vector<Check>& checks) {
+  const ClosedLoop loop = healthy_closed_loop();
+  const NetworkCirculation circulation(network_of(loop, healthy_closed_loop_state(), false, false),
+                                       loop.period_ms);
+  const Vector none(0), initial = circulation.initial_states();
+  const auto rate = [&](double t, const Vector& y, Vector& dy) { dy = circulation.rates(t, y, none).values; };
+  const double last = 9 * loop.period_ms, end = 10 * loop.period_ms;
+  constexpr int kSamples = 801;
+  const auto solution =
+      polyaffine::solve_ode(rate, 0, initial, Vector::LinSpaced(kSamples, last, end),
+                            {.relative_tolerance = 1e-8, .absolute_tolerance = 1e-7, .max_step = 5});
+  if (!solution.finished()) throw polyaffine::ComputationError("network: " + solution.message);
+  double low = INFINITY, high = 0, peak = 0;
+  for (int i = 0; i < kSamples; ++i)
+    for (const auto& reading : circulation.readings(last + i, solution.states.col(i), none)) {
+      if (reading.name != "left_ventricle") continue;
+      if (reading.quantity == CirculationModel::Quantity::pressure) {
+        peak = std::max(peak, reading.value / kPa_per_mmHg);
+        continue;
+      }
+      low = std::min(low, reading.value / mm3_per_mL);
+      high = std::max(high, reading.value / mm3_per_mL);
+    }
+  const Vector change = solution.states.col(kSamples - 1).cwiseQuotient(initial);
+  const auto add = [&](const std::string& quantity, const std::string& unit, double value, double reference,
+                       double tolerance) {
+    checks.push_back(check_of("network", quantity, unit, value, reference, tolerance, kLoop));
+  };
+  add("largest_change_after_ten_beats", "1", (change.array() - 1).abs().maxCoeff(), 0, 1e-3);
+  add("lv_smallest_mL", "mL", low, 66.96, 0.005);
+  add("lv_largest_mL", "mL", high, 136.74, 0.005);
+  add("lv_peak_mmHg", "mmHg", peak, 119.68, 0.005);
+}
+
 }  // namespace
 
 std::vector<Check> validate_circulation(const ValidationContext& context) {
@@ -80,6 +116,7 @@ std::vector<Check> validate_circulation(const ValidationContext& context) {
   std::vector<Check> checks{check_of("windkessel", "pressure_at_1", "1", windkessel_pressure(),
                                      1.0608252198133676, 1e-12, "published regression value")};
   closed_loop(checks);
+  network(checks);
   return checks;
 }
 
