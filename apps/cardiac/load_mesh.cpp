@@ -3,7 +3,9 @@
 #include <cmath>
 #include <memory>
 
+#include <cardiac/activation/activation.hpp>
 #include <cardiac/anatomy/orientation.hpp>
+#include <cardiac/core/units.hpp>
 #include <cardiac/fibres/file_fibres.hpp>
 #include <cardiac/protocol/build_anatomy.hpp>
 #include <cardiac/protocol/names.hpp>
@@ -36,6 +38,8 @@ HeartMeshOptions options_of(const Protocol& protocol, const WallSizeRule& size) 
                             protocol.fibres->sheet_array.value_or("")};
     options.all_fields = true;  // what there is, a message about missing fibres names
   }
+  if (protocol.activation && protocol.activation->mode == protocol::ActivationMode::array)
+    options.all_fields = true;
   return options;
 }
 
@@ -119,6 +123,14 @@ Anatomy load_anatomy(const Protocol& protocol, std::vector<std::string>& warning
 
 namespace {
 
+// The activation times of the mesh file's point array.
+std::shared_ptr<const ActivationMap> activation_map(const HeartMesh& heart, const Protocol& protocol) {
+  const auto& a = *protocol.activation;
+  const std::string name = a.array_ms ? *a.array_ms : a.array_s.value_or("activation_ms");
+  return std::make_shared<const ActivationMap>(
+      map_of_array(heart.file, name, a.array_s ? ms_per_s : 1, mesh_path(protocol).string()));
+}
+
 // Whether one ventricle leaves its reduced model no choice but Cartesian axes, for which the untrained
 // presets have functions of their own.
 bool turns_to_cartesian(const Anatomy& anatomy, const Protocol& protocol,
@@ -150,6 +162,8 @@ Protocol load_input(const std::filesystem::path& file, const std::vector<std::st
     out = load_protocol(file, all);
   }
   out.heart = anatomy;
+  if (out.activation && out.activation->mode == protocol::ActivationMode::array)
+    out.activation->map = activation_map(heart, out);
   out.warnings.insert(out.warnings.end(), warnings.begin(), warnings.end());
   return out;
 }

@@ -4,7 +4,7 @@
 #include <iostream>
 #include <memory>
 
-#include <cardiac/report/csv_reader.hpp>
+#include <cardiac/core/csv_reader.hpp>
 #include <cardiac/report/figures.hpp>
 #include <cardiac/report/page.hpp>
 #include <cardiac/report/result_reader.hpp>

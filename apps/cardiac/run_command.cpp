@@ -7,6 +7,7 @@
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <span>
 #include <sstream>
 
 #include <cardiac/protocol/describe.hpp>
@@ -19,10 +20,12 @@
 #include <cardiac/run/checkpoint.hpp>
 #include <cardiac/run/simulate.hpp>
 #include <cardiac/run/verification.hpp>
+#include <cardiac/scene/given_key.hpp>
 #include <cardiac/training/tuned_model.hpp>
 #include <nlohmann/json.hpp>
 #include <polyaffine/core/atomic_file.hpp>
 #include <polyaffine/core/error.hpp>
+#include <polyaffine/core/fnv1a.hpp>
 #include <polyaffine/mesh/digest.hpp>
 
 #include "example_data.hpp"
@@ -126,6 +129,8 @@ void print_result(const BeatResult& result, double verification_s, const std::fi
               << " %, peak pressure " << v.peak_pressure_mmHg << " mmHg, EDP " << v.edp_mmHg << " mmHg\n";
     for (const std::string& line : haemodynamics_lines(v)) std::cout << v.name << ": " << line << '\n';
   }
+  if (result.completed)
+    for (const std::string& line : balance_lines(result)) std::cout << line << '\n';
   if (result.has_beat && result.completed)
     std::cout << "strain at end systole: GLS " << result.strain.gls_percent << " %, GCS "
               << result.strain.gcs_percent << " %, GRS " << result.strain.grs_percent << " %, twist "
@@ -178,6 +183,11 @@ CheckpointOrigin origin_of(const Scene& scene, const std::string& protocol_json)
   std::string mesh = polyaffine::digest(scene.heart->mesh);
   if (scene.fibres && scene.fibres->source == scene::FibreSource::file)
     mesh += ", fibres " + polyaffine::digest(polyaffine::Matrix(tet_fibres(*scene.heart, *scene.fibres)));
+  if (const std::string given = given_key(scene); !given.empty()) {
+    polyaffine::Fnv1a sum;
+    sum.add(std::span<const char>(given));
+    mesh += ", tables and network " + std::to_string(sum.value());
+  }
   return {CARDIAC_VERSION, protocol_json, std::move(mesh)};
 }
 

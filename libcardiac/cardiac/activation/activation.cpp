@@ -41,6 +41,27 @@ std::vector<Mat3> conduction_tensors(const Points& fibre, const ConductionVeloci
   return tensors;
 }
 
+ActivationMap map_of_array(const polyaffine::MeshFile& file, const std::string& name, double ms,
+                           const std::string& source) {
+  const auto found = file.point_fields.find(name);
+  if (found == file.point_fields.end()) {
+    std::string known;
+    for (const auto& [other, values] : file.point_fields) known += (known.empty() ? "" : ", ") + other;
+    throw InputError(source + ": found no point array \"" + name + "\", expected one of activation times; " +
+                     (known.empty() ? "the file has none" : "there are " + known));
+  }
+  const polyaffine::Matrix& values = found->second;
+  if (values.rows() != 1)
+    throw InputError(source + ": point array \"" + name + "\": found " + std::to_string(values.rows()) +
+                     " components, expected one time a point");
+  constexpr double kLongest_ms = 1e5;
+  for (Eigen::Index i = 0; i < values.cols(); ++i)
+    if (!(std::abs(values(0, i) * ms) <= kLongest_ms))
+      throw InputError(source + ": point array \"" + name + "\", point " + std::to_string(i) + ": found " +
+                       std::to_string(values(0, i)) + ", expected a time of at most 100000 ms");
+  return {file.mesh.points(), Vector(ms * values.row(0).transpose())};
+}
+
 Vector mapped_times(const TetMesh& mesh, const ActivationMap& map, double largest_gap) {
   constexpr int kNeighbours = 4;
   constexpr double kSamePlace = 1e-6;  // mm

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <polyaffine/core/types.hpp>
 #include <polyaffine/mesh/tet_mesh.hpp>
+#include <polyaffine/mesh_io/assemble.hpp>
 
 namespace cardiac {
 
@@ -18,6 +20,12 @@ struct ActivationMap {
   polyaffine::Points points;
   polyaffine::Vector times_ms;
 };
+
+/// The times that a point array of a mesh file holds; `ms` is its unit. Throws InputError, `source` first,
+/// when there is none of the name (saying which there are), it has more than one component or a value that is
+/// no time.
+ActivationMap map_of_array(const polyaffine::MeshFile& file, const std::string& name, double ms,
+                           const std::string& source);
 
 /// The times of a map at every vertex, ms: that of the point where one lies on the vertex, otherwise the mean
 /// of the four nearest weighted by the inverse square of their distance (Shepard 1968). Throws InputError,

@@ -1,4 +1,4 @@
-#include <cardiac/report/csv_reader.hpp>
+#include <cardiac/core/csv_reader.hpp>
 
 #include <algorithm>
 #include <charconv>

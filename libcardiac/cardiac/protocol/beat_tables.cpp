@@ -17,13 +17,16 @@ Table activation_table() {
       .key("mode", &Activation::mode,
            {.meaning =
                 "uniform: everywhere at onset_ms; sites: a wave from the sites, the eikonal equation in "
-                "the metric of the fibres",
+                "the metric of the fibres; array: the times of a point array of mesh.file; table: those of "
+                "the points of times_file",
             .source = "convention: the simplest"})
       .key("onset_ms", &Activation::onset_ms,
            {.unit = "ms",
             .range = {0, 10000},
             .meaning = "time of the first excitation in the beat",
-            .source = "convention: the end of the filling belongs to the beat"})
+            .source = "convention: the end of the filling belongs to the beat",
+            .used_with = "mode",
+            .used_values = {"uniform", "sites"}})
       .key("site_segments", &Activation::site_segments,
            {.range = {1, 29},
             .meaning = "AHA segments whose endocardial centre is a site",
@@ -49,42 +52,81 @@ Table activation_table() {
             .meaning = "conduction velocity across the fibre",
             .source = "Niederer 2011: 0.19–0.23",
             .used_with = "mode",
-            .used_values = {"sites"}});
+            .used_values = {"sites"}})
+      .key("array_ms", &Activation::array_ms,
+           {.unit = "ms",
+            .meaning =
+                "name of the point array of mesh.file that holds the time of excitation in the beat, ms",
+            .absent = "array_s, or one called activation_ms",
+            .used_with = "mode",
+            .used_values = {"array"}})
+      .key("array_s", &Activation::array_s,
+           {.unit = "s",
+            .meaning = "the same in seconds",
+            .absent = "array_ms",
+            .used_with = "mode",
+            .used_values = {"array"}})
+      .key("times_file", &Activation::file,
+           {.meaning = "table (.csv) of points and their time of excitation in the beat, x_mm, y_mm, z_mm, "
+                       "activation_ms; vertices between them have the mean of the four nearest, weighted by "
+                       "the inverse square of the distance (Shepard 1968)",
+            .absent = "needed by the mode table",
+            .used_with = "mode",
+            .used_values = {"table"},
+            .path = true});
   table.all(contracts());
   return table.build();
 }
 
 Table contraction_table() {
   const std::string source = "Aróstica 2025";
+  const auto bestel = [](KeyFacts facts) {
+    facts.used_with = "model";
+    facts.used_values = {"bestel_clement_sorine_simplified"};
+    return facts;
+  };
   TableBuilder table("contraction", "Active tension along the fibre.", &Protocol::contraction);
   table
       .key("model", &Contraction::model,
            {.meaning = "simplified Bestel–Clément–Sorine: dτ/dt = −|a| τ + σ0 max(a, 0), a between "
-                       "activation_rate_per_s and −relaxation_rate_per_s",
+                       "activation_rate_per_s and −relaxation_rate_per_s; table: the tension of tension_file",
             .source = "Bestel, Clément, Sorine 2001; Aróstica 2025"})
       .key("contractility_kPa", &Contraction::contractility_kPa,
-           {.unit = "kPa",
-            .range = {0, 2000},
-            .meaning = "asymptotic tension σ0 (see model)",
-            .source = "Aróstica 2025: 150"})
-      .key("activation_rate_per_s", &Contraction::activation_rate_per_ms,
-           {.unit = "1/s", .range = above_zero(5000), .meaning = "rate a while active", .source = source},
-           {1 / ms_per_s})
+           bestel({.unit = "kPa",
+                   .range = {0, 2000},
+                   .meaning = "asymptotic tension σ0 (see model)",
+                   .source = "Aróstica 2025: 150"}))
+      .key(
+          "activation_rate_per_s", &Contraction::activation_rate_per_ms,
+          bestel(
+              {.unit = "1/s", .range = above_zero(5000), .meaning = "rate a while active", .source = source}),
+          {1 / ms_per_s})
       .key("relaxation_rate_per_s", &Contraction::relaxation_rate_per_ms,
-           {.unit = "1/s", .range = above_zero(1000), .meaning = "rate −a while relaxing", .source = source},
+           bestel({.unit = "1/s",
+                   .range = above_zero(1000),
+                   .meaning = "rate −a while relaxing",
+                   .source = source}),
            {1 / ms_per_s})
       .key("activation_duration_ms", &Contraction::activation_duration_ms,
-           {.unit = "ms",
-            .range = above_zero(5000),
-            .meaning = "time from excitation to the onset of relaxation; one that is given is kept at every "
-                       "heart rate",
-            .source = source + ": 484 − 160 ms; Bazett 1920: the square root",
-            .absent = "324 ms √(beat / 800 ms), so that systole follows time.heart_rate_bpm"})
+           bestel({.unit = "ms",
+                   .range = above_zero(5000),
+                   .meaning = "time from excitation to the onset of relaxation; one that is given is kept at "
+                              "every heart rate",
+                   .source = source + ": 484 − 160 ms; Bazett 1920: the square root",
+                   .absent = "324 ms √(beat / 800 ms), so that systole follows time.heart_rate_bpm"}))
       .key("switch_width_ms", &Contraction::switch_width_ms,
-           {.unit = "ms",
-            .range = {0.1, 500},
-            .meaning = "width w of the switches ½ (1 ± tanh(t/w)) between the two rates",
-            .source = source})
+           bestel({.unit = "ms",
+                   .range = {0.1, 500},
+                   .meaning = "width w of the switches ½ (1 ± tanh(t/w)) between the two rates",
+                   .source = source}))
+      .key("tension_file", &Contraction::tension_file,
+           {.meaning = "table (.csv) of the active tension along the fibre over the time since a point is "
+                       "excited, time_ms, tension_kPa; one beat long it repeats, longer it is the whole of "
+                       "time.duration_ms",
+            .absent = "needed by the model table",
+            .used_with = "model",
+            .used_values = {"table"},
+            .path = true})
       .key("cross_fibre_fraction", &Contraction::cross_fibre_fraction,
            {.range = {0, 1},
             .meaning = "tension across the fibre as a fraction of the tension along it",
@@ -94,23 +136,46 @@ Table contraction_table() {
 }
 
 Table cavities_table() {
-  TableBuilder table("cavities", "Prescribed pressure in the cavity; not together with [circulation].",
+  TableBuilder table("cavities",
+                     "Prescribed pressures or volumes of the cavities; not together with [circulation].",
                      &Protocol::cavities);
   table
       .key("pressure_mmHg", &Cavities::pressure_kPa,
            {.unit = "mmHg",
             .range = {-100, 1000},
             .meaning = "pressure that is reached from zero, in time.load_steps steps; negative: suction",
-            .required = true},
+            .required = true,
+            .instead = {"pressure_file", "volume_file"},
+            .also = {one_pressure()}},
            {kPa_per_mmHg})
       .key("right_pressure_mmHg", &Cavities::right_pressure_kPa,
            {.unit = "mmHg",
             .range = {0, 1000},
-            .meaning = "the same in the right ventricle, on a mesh that has one",
+            .meaning = "the same in the right ventricle, on a mesh that has one; beside a pressure_file "
+                       "without rows of it too",
             .source = "convention: no load unless it is named",
             .used_with = "anatomy.scheme",
             .used_values = {"aha29"}},
-           {kPa_per_mmHg});
+           {kPa_per_mmHg})
+      .key("pressure_file", &Cavities::pressure_file,
+           {.meaning =
+                "table (.csv) of the pressures over the time, time_ms, ventricle (lv, rv; without the "
+                "column lv), pressure_mmHg, as in cavity.csv; the wall is loaded to the first one, then "
+                "follows for time.duration_ms",
+            .absent = "pressure_mmHg",
+            .path = true})
+      .key("volume_file", &Cavities::volume_file,
+           {.meaning =
+                "table (.csv) of the volumes over the time, time_ms, ventricle, volume_mL; the pressures "
+                "that they take are found",
+            .absent = "pressure_mmHg",
+            .path = true})
+      .key("repeats", &Cavities::repeats,
+           {.meaning =
+                "whether the file holds one beat, which repeats (yes), or all of time.duration_ms (no); "
+                "auto: a table of at most 60000/time.heart_rate_bpm ms repeats",
+            .source = "convention: by the length of the table",
+            .also = {files()}});
   return table.build();
 }
 
@@ -146,7 +211,7 @@ Table time_table() {
             .range = {20, 300},
             .meaning = "heart rate; a beat lasts 60000/heart_rate_bpm ms, with a circulation and without",
             .source = "Regazzoni 2022: 75",
-            .also = {contracts()}},
+            .also = {in_time()}},
            {ms_per_min, true})
       .key("max_beats", &Time::max_beats,
            {.range = {1, 200},
@@ -166,13 +231,13 @@ Table time_table() {
            {.range = {1e-10, 0.1},
             .meaning = "relative tolerance of the time integration",
             .source = kMeasured,
-            .also = {contracts()}})
+            .also = {in_time()}})
       .key("absolute_tolerance_mm", &Time::absolute_tolerance_mm,
            {.unit = "mm",
             .range = {1e-10, 10},
             .meaning = "absolute tolerance of the displacement in the time integration",
             .source = kMeasured,
-            .also = {contracts()}})
+            .also = {in_time()}})
       .key("absolute_tolerance_mmHg", &Time::absolute_tolerance_kPa,
            {.unit = "mmHg",
             .range = {1e-10, 10},
@@ -185,7 +250,7 @@ Table time_table() {
             .range = {0.01, 1000},
             .meaning = "longest time step",
             .source = kMeasured,
-            .also = {contracts()}})
+            .also = {in_time()}})
       .key("load_steps", &Time::load_steps,
            {.range = {1, 1000},
             .meaning = "steps in which a static load is raised; cut further where needed",
@@ -210,7 +275,7 @@ Table output_table() {
             .range = {0.1, 1e5},
             .meaning = "time between two rows or meshes",
             .source = "convention: finer than the frames of cine MRI, 20 to 50 ms",
-            .also = {contracts()}})
+            .also = {in_time()}})
       .key("tables", &Output::tables,
            {.meaning = "strain, affine, global strain, cavity and circulation tables (.csv)", .source = all})
       .key("figures", &Output::figures,
@@ -261,7 +326,8 @@ Table region_table() {
 
 std::vector<Table> beat_tables() {
   std::vector<Table> out{activation_table(), contraction_table(), cavities_table()};
-  for (Table& table : circulation_tables()) out.push_back(std::move(table));
+  for (auto* more : {&circulation_tables, &network_tables})
+    for (Table& table : more()) out.push_back(std::move(table));
   for (Table& table : std::vector{boundary_table(), time_table(), output_table(), region_table()})
     out.push_back(std::move(table));
   return out;

@@ -1,7 +1,11 @@
 #include "cardiac/protocol/build_network.hpp"
 
+#include <cmath>
 #include <utility>
 
+#include <cardiac/circulation/svzerod.hpp>
+#include <cardiac/core/csv_reader.hpp>
+#include <cardiac/protocol/key.hpp>
 #include <cardiac/protocol/nearest_key.hpp>
 #include <polyaffine/core/error.hpp>
 
@@ -42,9 +46,48 @@ Element element_of(const NetworkElement& e) {
   return out;
 }
 
+// Units of pressure, volume and time.
+SvZeroDFactors factors_of(SvZeroDUnits units) {
+  switch (units) {
+    case SvZeroDUnits::dyn_cm_s:
+      return {1e-4, mm3_per_mL, ms_per_s};
+    case SvZeroDUnits::Pa_m_s:
+      return {1e-3, 1e9, ms_per_s};
+    case SvZeroDUnits::mmHg_mL_s:
+      break;
+  }
+  return {};
+}
+
+void read_model(Protocol& protocol, const Place& place) {
+  Circulation& circulation = *protocol.circulation;
+  const std::filesystem::path file = (protocol.directory / *circulation.svzerod_file).lexically_normal();
+  const std::string key = "circulation.svzerod_file";
+  if (!std::filesystem::is_regular_file(file))
+    throw polyaffine::InputError(place(key) + ": " + key + ": no such file " + file.string() +
+                                 "; expected a model of svZeroDSolver (.json), its path relative to the "
+                                 "protocol file");
+  SvZeroDHeart heart;
+  heart.has_lv = true;
+  heart.has_rv = protocol.anatomy.scheme == Scheme::aha29;
+  heart.lv = circulation.lv_chamber;
+  heart.rv = circulation.rv_chamber;
+  CirculationNetwork network =
+      read_svzerod(read_text(file), file.string(), factors_of(*circulation.svzerod_units), heart);
+  const double beat = protocol.time.beat_ms;
+  if (network.period_ms > 0 && std::abs(network.period_ms - beat) > 1e-4 * beat)
+    throw polyaffine::InputError(
+        file.string() + ": found a cardiac period of " + number_text(network.period_ms) +
+        " ms, expected that of time.heart_rate_bpm, " + number_text(beat) +
+        " ms; time.heart_rate_bpm = " + number_text(ms_per_min / network.period_ms) + " is that of the file");
+  network.period_ms = beat;
+  circulation.network = std::make_shared<const CirculationNetwork>(std::move(network));
+}
+
 }  // namespace
 
 void build_network(Protocol& protocol, const Place& place) {
+  if (protocol.circulation && protocol.circulation->loop == Loop::svzerod) return read_model(protocol, place);
   if (!protocol.circulation || protocol.circulation->loop != Loop::network) return;
   CirculationNetwork network;
   for (const NetworkCompartment& c : protocol.compartments) network.compartments.push_back(compartment_of(c));

@@ -11,6 +11,24 @@ Condition beats() {
   return {"[circulation]", [](const Protocol& p, std::size_t) { return p.circulation.has_value(); }};
 }
 
+Condition in_time() {
+  return {"[contraction] or a file of [cavities]", [](const Protocol& p, std::size_t) {
+            return p.contraction || (p.cavities && (p.cavities->pressure_file || p.cavities->volume_file));
+          }};
+}
+
+Condition one_pressure() {
+  return {"no file of [cavities]", [](const Protocol& p, std::size_t) {
+            return !(p.cavities && (p.cavities->pressure_file || p.cavities->volume_file));
+          }};
+}
+
+Condition files() {
+  return {"pressure_file or volume_file", [](const Protocol& p, std::size_t) {
+            return p.cavities && (p.cavities->pressure_file || p.cavities->volume_file);
+          }};
+}
+
 Condition windkessels() {
   return {"circulation.loop = windkessel", [](const Protocol& p, std::size_t) {
             return p.circulation && p.circulation->loop == Loop::windkessel;

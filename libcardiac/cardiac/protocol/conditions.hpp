@@ -10,6 +10,11 @@ namespace cardiac::protocol {
 Condition contracts();
 /// Beats in a circulation are computed, not a prescribed pressure.
 Condition beats();
+/// Time passes: something contracts, or the cavities follow given curves.
+Condition in_time();
+/// The pressure of the cavities is one number; it or their volume is a table.
+Condition one_pressure();
+Condition files();
 /// The circulation consists of windkessels; it is a network of one's own.
 Condition windkessels();
 Condition networks();

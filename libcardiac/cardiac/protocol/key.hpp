@@ -80,6 +80,7 @@ std::vector<Table> heart_tables();
 std::vector<Table> model_tables();
 std::vector<Table> beat_tables();
 std::vector<Table> circulation_tables();
+std::vector<Table> network_tables();
 
 /// Null when there is none.
 const Table* find_table(const std::string& name);

@@ -60,6 +60,9 @@ constexpr Names<3> names_of(Repeats) {
 constexpr Names<4> names_of(Loop) {
   return {"windkessel", "closed_2022", "network", "svzerod"};
 }
+constexpr Names<3> names_of(SvZeroDUnits) {
+  return {"mmHg_mL_s", "dyn_cm_s", "Pa_m_s"};
+}
 constexpr Names<5> names_of(CompartmentType) {
   return {"vessel", "chamber", "ventricle", "pressure", "junction"};
 }

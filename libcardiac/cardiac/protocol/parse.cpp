@@ -5,6 +5,7 @@
 
 #include <cardiac/protocol/build_network.hpp>
 #include <cardiac/protocol/entries.hpp>
+#include <cardiac/protocol/given_files.hpp>
 #include <cardiac/protocol/key.hpp>
 #include <cardiac/protocol/nearest_key.hpp>
 #include <cardiac/protocol/rules.hpp>
@@ -190,6 +191,7 @@ Protocol parse_protocol(const std::string& text, const std::filesystem::path& so
   fill_scheme(protocol);
   check_rules(protocol, place);
   build_network(protocol, place);
+  read_given_files(protocol, place);
   fill_presets(protocol, protocol.anatomy.scheme == Scheme::aha29);
   const Entry local{"reduction", 0, "local_bulk_modulus_kPa", {}, {}, {}};
   if (std::ranges::none_of(entries, [&](const Entry& entry) { return entry.same_place(local); }))

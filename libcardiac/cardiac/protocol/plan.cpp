@@ -32,8 +32,17 @@ PlanItem activation_item(const Protocol& protocol) {
     return {"activation", false,
             protocol.activation ? "[activation] is named, but nothing contracts" : "nothing contracts"};
   }
-  const bool uniform = protocol.activation->mode == ActivationMode::uniform;
-  return {"activation", true, uniform ? "the same time everywhere" : "eikonal wave from the sites"};
+  switch (protocol.activation->mode) {
+    case ActivationMode::uniform:
+      return {"activation", true, "the same time everywhere"};
+    case ActivationMode::array:
+      return {"activation", true, "times of a point array of the mesh"};
+    case ActivationMode::table:
+      return {"activation", true, "times of the points of " + *protocol.activation->file};
+    case ActivationMode::sites:
+      break;
+  }
+  return {"activation", true, "eikonal wave from the sites"};
 }
 
 PlanItem contraction_item(const Protocol& protocol) {
@@ -43,6 +52,10 @@ PlanItem contraction_item(const Protocol& protocol) {
 
 PlanItem cavity_item(const Protocol& protocol) {
   if (protocol.circulation) return {"cavity", true, "its volume couples to the circulation"};
+  if (protocol.cavities && protocol.cavities->volume_file)
+    return {"cavity", true, "its volume over the time is given: " + *protocol.cavities->volume_file};
+  if (protocol.cavities && protocol.cavities->pressure_file)
+    return {"cavity", true, "its pressure over the time is given: " + *protocol.cavities->pressure_file};
   if (protocol.cavities) return {"cavity", true, "a pressure is prescribed in it"};
   return {"cavity", false, "neither [cavities] nor [circulation]: no pressure acts"};
 }

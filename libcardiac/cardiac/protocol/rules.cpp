@@ -138,6 +138,16 @@ void check_activity(const Protocol& protocol, const Place& place) {
     fail(place, "activation.mode",
          "\"sites\" needs activation.site_segments (AHA segments) or activation.sites_mm (points in mm)");
   }
+  if (const auto& a = protocol.activation) {
+    if (a->mode == ActivationMode::array && !protocol.mesh.file)
+      fail(place, "activation.mode",
+           "found \"array\" beside mesh.shape; expected a mesh.file with point data");
+    if (a->mode == ActivationMode::array && a->array_ms && a->array_s)
+      fail(place, "activation.array_s", "found beside activation.array_ms, expected one of them");
+    if (a->mode == ActivationMode::table && !a->file)
+      fail(place, "activation.times_file",
+           "missing; expected a table (.csv) with x_mm, y_mm, z_mm and activation_ms");
+  }
   if (needs_fibres(protocol) && !protocol.fibres) {
     fail(place, "fibres", "missing; expected a table [fibres]: " + why_fibres(protocol));
   }
@@ -148,7 +158,7 @@ void check_activity(const Protocol& protocol, const Place& place) {
 
 // Contraction and relaxation must fit into a beat.
 void check_contraction_time(const Protocol& protocol, const Place& place) {
-  if (!protocol.contraction) return;
+  if (!protocol.contraction || protocol.contraction->model == ContractionModel::table) return;
   const double beat = protocol.time.beat_ms;
   try {
     check_contraction(bestel_parameters(*protocol.contraction, protocol.time), beat);
@@ -166,6 +176,16 @@ void check_load(const Protocol& protocol, const Place& place) {
   if (protocol.cavities && protocol.circulation) {
     fail(place, "cavities",
          "given beside [circulation]; expected either a prescribed pressure or a circulation");
+  }
+  if (protocol.cavities && protocol.cavities->pressure_file && protocol.cavities->volume_file)
+    fail(place, "cavities.volume_file", "found beside cavities.pressure_file, expected one of them");
+  if (protocol.circulation && protocol.circulation->loop == Loop::svzerod) {
+    if (!protocol.circulation->svzerod_file)
+      fail(place, "circulation.svzerod_file", "missing; expected a model of svZeroDSolver (.json)");
+    if (!protocol.circulation->svzerod_units)
+      fail(place, "circulation.svzerod_units",
+           "missing; expected the units of " + *protocol.circulation->svzerod_file +
+               ": one of \"mmHg_mL_s\", \"dyn_cm_s\", \"Pa_m_s\"");
   }
   if (protocol.circulation && !protocol.contraction) {
     fail(place, "circulation",

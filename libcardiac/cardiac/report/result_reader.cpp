@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include <cardiac/report/csv_reader.hpp>
+#include <cardiac/core/csv_reader.hpp>
 #include <cardiac/report/global_columns.hpp>
 #include <cardiac/report/summary_reader.hpp>
 #include <cardiac/report/tables.hpp>

@@ -110,10 +110,11 @@ void extrapolate(const CoupledHeart& heart, polyaffine::LinearSystem& linear, do
                  Vector& y, Vector& rate) {
   const CycleEstimate limit = estimate_limit_cycle(path.cycle, heart.num_cavities());
   if (!limit.extrapolated) return;
+  const int pressures = heart.circulation->kinds().pressures;
+  if (heart.circulation->is_closed() && pressures == 0) return;  // nothing that could hold what is missing
   Vector wanted = limit.stores;
   const polyaffine::Unknowns stores{heart.vessels.first, static_cast<int>(wanted.size())};
   if (heart.circulation->is_closed()) {
-    const int pressures = heart.circulation->kinds().pressures;
     const Vector compliances = heart.circulation->compliances().segment(heart.num_cavities(), pressures);
     const Vector missing = stores.of(y) - wanted;
     wanted.head(pressures).array() +=

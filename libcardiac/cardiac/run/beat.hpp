@@ -84,9 +84,11 @@ struct RunControl {
 HeartPath run_beats(const Ventricle& ventricle, const Scene& scene, const RunControl& control = {});
 
 /// A ventricle without circulation: pressure raised to the prescribed value in equilibrium, in load_steps,
-/// the time of the loading running from 0 to duration_ms. With contraction the loading takes no time; the
-/// pressure is then held while the muscle contracts at heart_rate_bpm for duration_ms, integrated by IDA with
-/// the viscosity of the tissue (pressed_system) and told every interval_ms.
+/// the time of the loading running from 0 to duration_ms. With contraction, or where the pressures are
+/// curves, the loading takes no time; the wall then follows for duration_ms, the pressures held or along
+/// their curves, integrated by IDA with the viscosity of the tissue (pressed_system) and told every
+/// interval_ms. Where the volumes are given, the wall is brought to the first ones in equilibrium and follows
+/// their curves (GivenVolumes); the pressures are unknowns.
 HeartPath run_prescribed(const Ventricle& ventricle, const Scene& scene, const RunControl& control = {});
 
 }  // namespace cardiac

@@ -17,6 +17,7 @@ constexpr double kLargestChange = 0.5;  // of a pressure, in an estimate
 constexpr double kNoiseShare = 0.01;    // of the largest singular value
 constexpr double kUnexplained = 10;     // what counts a difference that the beats so far do not explain
 constexpr int kNoiseBeats = 3;
+constexpr int kFewStores = 3;
 constexpr int kSpareBeats = 3;  // among which those that differ most are chosen
 
 // A beat's residual in parts of the pressures.
@@ -85,7 +86,9 @@ CycleEstimate estimate_limit_cycle(const std::vector<CycleBeat>& beats, int volu
 
 bool is_noise(const std::vector<CycleBeat>& beats, int volumes) {
   const auto count = std::ssize(beats);
-  if (count <= kNoiseBeats + 1 || beats.front().start.size() == volumes) return false;
+  const auto stores = beats.front().start.size() - volumes;
+  // Of many stores the first beats tell little: extrapolations from them lead about.
+  if (stores == 0 || count <= kNoiseBeats + std::max<std::ptrdiff_t>(1, stores - kFewStores)) return false;
   double before = INFINITY, lately = INFINITY;
   bool turns = false;
   for (std::ptrdiff_t n = 0; n < count; ++n) {

@@ -85,9 +85,9 @@ struct Activation {
   std::vector<Vector3> sites_mm;   ///< further sites: the nearest vertex of the mesh
   double conduction_along_fibre_mm_per_ms = 0.6;
   double conduction_across_fibre_mm_per_ms = 0.2;
-  std::optional<std::string> array_ms, array_s;  ///< name of a point array of the mesh file
-  std::optional<std::string> file;               ///< a table of points and their times
-  std::shared_ptr<const ActivationMap> map;      ///< what the array or the table says; null: not read yet
+  std::optional<std::string> array_ms{}, array_s{};  ///< name of a point array of the mesh file
+  std::optional<std::string> file{};                 ///< a table of points and their times
+  std::shared_ptr<const ActivationMap> map{};        ///< what the array or the table says; null: not read yet
 };
 
 enum class ContractionModel { bestel_clement_sorine_simplified, table };
@@ -99,18 +99,18 @@ struct Contraction {
   std::optional<double> activation_duration_ms;  ///< set by the heart rate when the file does not name it
   double switch_width_ms = 5;
   double cross_fibre_fraction = 0.25;
-  std::optional<std::string> tension_file;    ///< of the model table
-  std::shared_ptr<const GivenCurve> tension;  ///< what it says, kPa from the excitation of a point on
+  std::optional<std::string> tension_file{};    ///< of the model table
+  std::shared_ptr<const GivenCurve> tension{};  ///< what it says, kPa from the excitation of a point on
 };
 
 enum class Repeats { automatic, yes, no };
 struct Cavities {
-  double pressure_kPa = 0;                                ///< prescribed, raised from zero
-  double right_pressure_kPa = 0;                          ///< the same of the right ventricle
-  std::optional<std::string> pressure_file, volume_file;  ///< either of them instead
+  double pressure_kPa = 0;                                    ///< prescribed, raised from zero
+  double right_pressure_kPa = 0;                              ///< the same of the right ventricle
+  std::optional<std::string> pressure_file{}, volume_file{};  ///< either of them instead
   Repeats repeats =
       Repeats::automatic;  ///< whether what the file gives is one beat; automatic: by its length
-  std::shared_ptr<const GivenCavities> curves;  ///< what the file says
+  std::shared_ptr<const GivenCavities> curves{};  ///< what the file says
 };
 
 enum class Loop { windkessel, closed_2022, network, svzerod };
@@ -136,15 +136,15 @@ struct Circulation {
   double pulmonary_venous_compliance_mm3_per_kPa = 16 * compliance_per_mL_per_mmHg;
   double systemic_venous_compliance_mm3_per_kPa = 16 * compliance_per_mL_per_mmHg;
   double initial_pulmonary_pressure_kPa = 12 * kPa_per_mmHg;
-  std::optional<double> mitral_leak_resistance_kPa_ms_per_mm3;  ///< from here on of both: absent: tight
-  std::optional<double> tricuspid_leak_resistance_kPa_ms_per_mm3;
-  std::optional<double> pulmonary_leak_resistance_kPa_ms_per_mm3;
+  std::optional<double> mitral_leak_resistance_kPa_ms_per_mm3{};  ///< from here on of both: absent: tight
+  std::optional<double> tricuspid_leak_resistance_kPa_ms_per_mm3{};
+  std::optional<double> pulmonary_leak_resistance_kPa_ms_per_mm3{};
   double mitral_stenosis_kPa_ms2_per_mm6 = 0, aortic_stenosis_kPa_ms2_per_mm6 = 0;  ///< of q²
   double tricuspid_stenosis_kPa_ms2_per_mm6 = 0, pulmonary_stenosis_kPa_ms2_per_mm6 = 0;
-  std::optional<SvZeroDUnits> svzerod_units;
-  std::optional<std::string> svzerod_file;            ///< of the loop svzerod
-  std::optional<std::string> lv_chamber, rv_chamber;  ///< chambers of that file that the mesh stands for
-  std::shared_ptr<const CirculationNetwork> network;  ///< of the loops network and svzerod
+  std::optional<SvZeroDUnits> svzerod_units{};
+  std::optional<std::string> svzerod_file{};              ///< of the loop svzerod
+  std::optional<std::string> lv_chamber{}, rv_chamber{};  ///< chambers of that file that the mesh stands for
+  std::shared_ptr<const CirculationNetwork> network{};    ///< of the loops network and svzerod
 };
 
 enum class Base { clamped };

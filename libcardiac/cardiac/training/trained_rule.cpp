@@ -135,7 +135,7 @@ WallLoad sample_load(Samples& samples, int j, const Anatomy& anatomy, Scene scen
                      const polyaffine::WallPoints& points) {
   WallLoad load;
   const double level = (j + samples.uniform(0, 1)) / kLoads;
-  double highest = scene.cavities ? scene.cavities->pressure_kPa : kPressure_kPa;
+  double highest = scene.cavities && !scene.cavities->curves ? scene.cavities->pressure_kPa : kPressure_kPa;
   if (scene.contraction) {
     highest *= std::min(1.0, 0.2 + 1.5 * level);
     scene.regions.clear();

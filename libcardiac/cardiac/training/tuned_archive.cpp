@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <cardiac/fibres/anatomy_archive.hpp>
+#include <cardiac/scene/given_key.hpp>
 #include <cardiac/training/trained_rule.hpp>
 #include <polyaffine/core/archive_eigen.hpp>
 #include <polyaffine/core/archive_file.hpp>
@@ -189,6 +190,7 @@ std::string tuned_key(const Anatomy& anatomy, const Scene& scene) {
                           c->compliance_mm3_per_kPa,
                           c->pulmonary_peripheral_resistance_kPa_ms_per_mm3};
   if (const auto& c = scene.cavities) key["cavities"] = {c->pressure_kPa, c->right_pressure_kPa};
+  if (const std::string given = given_key(scene); !given.empty()) key["given"] = given;
   for (const auto& r : scene.regions)
     key["regions"].push_back(
         {r.segments, r.stiffness_factor, r.tension_factor, r.activation_delay_ms, r.border_width_percent});

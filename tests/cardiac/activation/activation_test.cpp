@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -79,6 +80,39 @@ TEST(Activation, RejectsBadInput) {
   EXPECT_THROW(activation_times(slab.mesh, 2 * slab.fibre, kVelocity, site), InputError);
   EXPECT_THROW(activation_times(slab.mesh, slab.fibre.leftCols(3), kVelocity, site), InputError);
   EXPECT_THROW(activation_times(slab.mesh, Points(3, 0), kVelocity, site), InputError);
+}
+
+TEST(ActivationMap, GivesItsTimesAtItsPointsAndMeansBetween) {
+  const Slab slab;
+  ActivationMap map{slab.mesh.points(), Vector(slab.mesh.num_points())};
+  for (int i = 0; i < slab.mesh.num_points(); ++i) map.times_ms[i] = 50 + slab.mesh.points()(0, i);
+  EXPECT_EQ(mapped_times(slab.mesh, map), map.times_ms);
+  map.points = map.points.rowwise().reverse().eval();  // in another order
+  map.times_ms.reverseInPlace();
+  const Vector again = mapped_times(slab.mesh, map);
+  EXPECT_NEAR(slab.time_at(again, Vec3(-20, 0, 2)), 30, 1e-12);
+  const ActivationMap two{(Points(3, 2) << -10, 10, 0, 0, 2, 2).finished(), Vector{{10, 30}}};
+  const Vector between = mapped_times(slab.mesh, two);
+  EXPECT_NEAR(slab.time_at(between, Vec3(0, 0, 2)), 20, 1e-12);
+  EXPECT_NEAR(slab.time_at(between, Vec3(4, 0, 2)), (10.0 / 196 + 30.0 / 36) / (1.0 / 196 + 1.0 / 36), 1e-12);
+}
+
+TEST(ActivationMap, SaysWhatIsMissing) {
+  const Slab slab;
+  const ActivationMap far{(Points(3, 1) << 100, 0, 0).finished(), Vector{{5}}};
+  EXPECT_THAT([&] { mapped_times(slab.mesh, far); },
+              testing::ThrowsMessage<InputError>(testing::HasSubstr("expected one within 30 mm")));
+  polyaffine::MeshFile file{slab.mesh};
+  file.point_fields["lat"] = polyaffine::Matrix::Constant(1, slab.mesh.num_points(), 0.04);
+  file.point_fields["velocity"] = polyaffine::Matrix::Ones(3, slab.mesh.num_points());
+  EXPECT_EQ(map_of_array(file, "lat", 1000, "heart.vtu").times_ms,
+            Vector::Constant(slab.mesh.num_points(), 40));
+  EXPECT_THAT([&] { map_of_array(file, "activation", 1, "heart.vtu"); },
+              testing::ThrowsMessage<InputError>(
+                  testing::HasSubstr("heart.vtu: found no point array \"activation\", expected one of "
+                                     "activation times; there are lat, velocity")));
+  EXPECT_THAT([&] { map_of_array(file, "velocity", 1, "heart.vtu"); },
+              testing::ThrowsMessage<InputError>(testing::HasSubstr("found 3 components")));
 }
 
 }  // namespace

@@ -104,7 +104,8 @@ TEST(KeyTable, DefaultsAreAcceptable) {
 }
 
 TEST(KeyTable, UnitsInNamesAreStated) {
-  const std::regex unit("(_(mm|ms|kPa|mmHg|deg|percent|bpm)|budget_s|_per_(mm|ms|s|mL|mmHg))$");
+  const std::regex unit(
+      "(_(mm|ms|kPa|mmHg|mL|deg|percent|bpm)|(budget|array)_s|_per_(mm|ms|s|mL|mL2|mmHg))$");
   for (const auto& path : cardiac::key_paths()) {
     const auto text = cardiac::explain(path);
     EXPECT_EQ(std::regex_search(path, unit), text.find("\n  unit      ") != std::string::npos &&
@@ -113,19 +114,33 @@ TEST(KeyTable, UnitsInNamesAreStated) {
   }
 }
 
+/// The schema of every table by its name, those within a table by both names.
+std::vector<std::pair<std::string, json>> table_schemas(const json& schema) {
+  std::vector<std::pair<std::string, json>> out;
+  for (const auto& [name, table] : schema.at("properties").items()) {
+    out.emplace_back(name, table);
+    const json properties = object_schema(table).at("properties");
+    for (const auto& [key, property] : properties.items())
+      if (property.value("type", "") == "array" && property.at("items").contains("properties"))
+        out.emplace_back(name + '.' + key, property);
+  }
+  return out;
+}
+
 TEST(Schema, IsStrictAndListsTheKeysThatParse) {
   const json schema = json::parse(cardiac::protocol_schema().dump());
   EXPECT_EQ(schema.at("additionalProperties"), false);
   EXPECT_EQ(schema.at("type"), "object");
   std::set<std::string> paths;
-  for (const auto& [name, table] : schema.at("properties").items()) {
+  for (const auto& [name, table] : table_schemas(schema)) {
     const json object = object_schema(table);
     EXPECT_EQ(object.at("additionalProperties"), false) << name;
     for (const auto& [key, value_schema] : object.at("properties").items()) {
       const json& property = value_schema;  // which lambdas may take, a binding not
+      if (property.value("type", "") == "array" && property.at("items").contains("properties")) continue;
       paths.insert(name + '.' + key);
       // A date is of no key's type: the parser knows the key when it complains of the type.
-      const std::string text = name == "region" ? "[[region]]\n" : '[' + name + "]\n";
+      const std::string text = table.at("type") == "array" ? "[[" + name + "]]\n" : '[' + name + "]\n";
       EXPECT_THAT(refusal(text + key + " = 2020-01-01\n"),
                   AllOf(HasSubstr('.' + key + ": found a date"), HasSubstr("expected")));
       EXPECT_FALSE(property.at("description").get<std::string>().empty());
@@ -139,13 +154,14 @@ TEST(Schema, IsStrictAndListsTheKeysThatParse) {
 TEST(Schema, RangesAreThoseOfTheParser) {
   const json schema = cardiac::protocol_schema();
   int checked = 0;
-  for (const auto& [name, table] : schema.at("properties").items()) {
+  for (const auto& [name, table] : table_schemas(schema)) {
     const json object = object_schema(table);
     for (const auto& [key, value_schema] : object.at("properties").items()) {
       const json& property = value_schema;       // which lambdas may take, a binding not
       if (!property.contains("type")) continue;  // labels: a number or a name
       if (property.at("type") != "number" && property.at("type") != "integer") continue;
-      const std::string head = (name == "region" ? "[[region]]\n" : '[' + name + "]\n") + key + " = ";
+      const std::string head =
+          (table.at("type") == "array" ? "[[" + name + "]]\n" : '[' + name + "]\n") + key + " = ";
       const auto literal = [&](double value) {
         return property.at("type") == "integer" ? std::to_string(static_cast<long>(value))
                                                 : json(value).dump();

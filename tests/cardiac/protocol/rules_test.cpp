@@ -154,7 +154,7 @@ TEST(Rules, EachConditionThatIsNotMetIsNamed) {
   told(full, "reduction.preset=accurate", "reduction.method = polyaffine");
   told(full, "reduction.sigmoid_slope=2", "reduction.weights = sigmoid, with reduction.method = polyaffine");
   told(kBeat, "reduction.element_order=1", "reduction.method = fem");
-  told(kPassive, "time.heart_rate_bpm=60", "[contraction]");
+  told(kPassive, "time.heart_rate_bpm=60", "[contraction] or a file of [cavities]");
   told(kPassive, "time.max_beats=3", "[circulation]");
   told(kBeat, "time.load_steps=3", "a run without [circulation]");
   told(kBeat, "fibres.sheet_angle_deg=10", "tissue.law = holzapfel_ogden");

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <regex>
 
-#include <cardiac/report/csv_reader.hpp>
+#include <cardiac/core/csv_reader.hpp>
 #include <cardiac/report/page.hpp>
 #include <cardiac/report/tables.hpp>
 #include "cardiac/report/synthetic_result.hpp"

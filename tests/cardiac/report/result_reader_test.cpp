@@ -4,7 +4,7 @@
 #include <fstream>
 #include <limits>
 
-#include <cardiac/report/csv_reader.hpp>
+#include <cardiac/core/csv_reader.hpp>
 #include <cardiac/report/result_reader.hpp>
 #include <cardiac/report/tables.hpp>
 #include "cardiac/report/synthetic_result.hpp"

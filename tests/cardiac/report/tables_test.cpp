@@ -8,7 +8,7 @@
 #include <regex>
 #include <sstream>
 
-#include <cardiac/report/csv_reader.hpp>
+#include <cardiac/core/csv_reader.hpp>
 #include <cardiac/report/summary.hpp>
 #include <cardiac/report/tables.hpp>
 #include <polyaffine/core/error.hpp>
