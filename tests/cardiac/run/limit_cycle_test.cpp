@@ -103,5 +103,23 @@ TEST(LimitCycle, NoiseIsToldFromSlowness) {
   EXPECT_EQ(noisy_from(0.97, 0), 0);
 }
 
+// Residuals that only change their sign are noise, but of many stores not before the extrapolation had beats
+// enough to learn from.
+TEST(LimitCycle, FewBeatsOfManyStoresAreNoNoise) {
+  const auto noisy_from = [](int stores) {
+    std::vector<CycleBeat> beats;
+    for (int n = 1; n <= 30; ++n) {
+      const Vector start = Vector::Constant(1 + stores, 10);
+      beats.push_back({start, start + Vector::Constant(1 + stores, n % 2 == 0 ? 0.01 : -0.01), 70});
+      if (is_noise(beats, 1)) return n;
+    }
+    return 0;
+  };
+  EXPECT_EQ(noisy_from(1), 5);
+  EXPECT_EQ(noisy_from(4), 5);
+  EXPECT_EQ(noisy_from(6), 7);
+  EXPECT_EQ(noisy_from(0), 0);
+}
+
 }  // namespace
 }  // namespace cardiac
