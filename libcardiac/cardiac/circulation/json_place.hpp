@@ -46,6 +46,19 @@ class JsonPlace {
     const auto found = find(key);
     return found ? found->number() : otherwise;
   }
+  /// A number of at least zero; above zero.
+  double magnitude() const {
+    if (!(number() >= 0)) fail(written(), "a number of at least 0");
+    return number();
+  }
+  double magnitude_or(const std::string& key, double otherwise) const {
+    const auto found = find(key);
+    return found ? found->magnitude() : otherwise;
+  }
+  double positive() const {
+    if (!(number() > 0)) fail(written(), "a number above 0");
+    return number();
+  }
   int whole() const {
     if (!json_->is_number_integer()) fail(written(), "a whole number");
     return json_->get<int>();

@@ -88,9 +88,9 @@ class SvZeroDReader {
   double period() const {
     std::vector<double> found;
     for (const JsonPlace& block : root_.list("closed_loop_blocks"))
-      if (const auto value = block.find("cardiac_cycle_period")) found.push_back(time(value->number()));
+      if (const auto value = block.find("cardiac_cycle_period")) found.push_back(time(value->positive()));
     if (const auto simulation = root_.find("simulation_parameters"))
-      if (const auto value = simulation->find("cardiac_period")) found.push_back(time(value->number()));
+      if (const auto value = simulation->find("cardiac_period")) found.push_back(time(value->positive()));
     for (const JsonPlace& condition : root_.list("boundary_conditions"))
       if (const auto values = condition.find("bc_values"))
         if (const auto times = values->find("t"); times && times->size() > 1)
@@ -136,9 +136,9 @@ class SvZeroDReader {
     known_.insert(name);
     if (const auto id = block.find("vessel_id")) vessel_ids_[id->whole()] = name;
     const JsonPlace type = block.at("zero_d_element_type"), values = block.at("zero_d_element_values");
-    const double R = resistance(values.number_or("R_poiseuille", 0)),
-                 C = compliance(values.number_or("C", 0)), L = inertance(values.number_or("L", 0)),
-                 B = stenosis(values.number_or("stenosis_coefficient", 0));
+    const double R = resistance(values.magnitude_or("R_poiseuille", 0)),
+                 C = compliance(values.magnitude_or("C", 0)), L = inertance(values.magnitude_or("L", 0)),
+                 B = stenosis(values.magnitude_or("stenosis_coefficient", 0));
     const double p = initial_pressure("pressure:", ":" + name), q = initial_flow("flow:", ":" + name),
                  out = initial_flow("flow:" + name + ":", "");
     const int begin = inlet(name), end = outlet(name);
@@ -173,9 +173,9 @@ class SvZeroDReader {
     const int begin = inlet(name), end = outlet(name);
     if (type == "RCR" || type == "ClosedLoopRCR") {
       const int middle = graph_.point(name + ":C");
-      add_pipe(name + "_in", begin, middle, resistance(values.at("Rp").number()), 0, 0, 0);
-      add_store(middle, name, compliance(values.at("C").number()), initial_capacitor(name));
-      const double Rd = resistance(values.at("Rd").number());
+      add_pipe(name + "_in", begin, middle, resistance(values.at("Rp").magnitude()), 0, 0, 0);
+      add_store(middle, name, compliance(values.at("C").magnitude()), initial_capacitor(name));
+      const double Rd = resistance(values.at("Rd").magnitude());
       if (type == "ClosedLoopRCR") {
         add_pipe(name + "_out", middle, end, Rd, 0, 0, 0);
         if (values.find("closed_loop_outlet") && values.at("closed_loop_outlet").flag())
@@ -187,7 +187,7 @@ class SvZeroDReader {
       add_given(behind, name + "_reference", pressure(values.number_or("Pd", 0)));
     } else if (type == "RESISTANCE") {
       const int behind = graph_.point(name + "_reference");
-      add_pipe(name, begin, behind, resistance(values.at("R").number()), 0, 0, 0);
+      add_pipe(name, begin, behind, resistance(values.at("R").magnitude()), 0, 0, 0);
       const TimeSeries curve = series(values, "Pd", unit_.kPa);
       add_given(behind, name + "_reference", curve.values.front(), curve);
     } else if (type == "PRESSURE") {
@@ -300,11 +300,11 @@ class SvZeroDReader {
     Element out;
     out.name = name;
     out.type = ElementType::valve;
-    out.valve.resistance_kPa_ms_per_mm3 = resistance(values.at("Rmin").number());
-    out.valve.leak_kPa_ms_per_mm3 = resistance(values.at("Rmax").number());
+    out.valve.resistance_kPa_ms_per_mm3 = resistance(values.at("Rmin").positive());
+    out.valve.leak_kPa_ms_per_mm3 = resistance(values.at("Rmax").positive());
     if (type == "ValveTanh") {
       out.valve.law = ValveLaw::tanh;
-      out.valve.sharpness_per_kPa = values.at("Steepness").number() / unit_.kPa;
+      out.valve.sharpness_per_kPa = values.at("Steepness").positive() / unit_.kPa;
     } else if (type == "PiecewiseValve") {
       out.valve.smoothing_kPa = kSharp_kPa;
     } else {

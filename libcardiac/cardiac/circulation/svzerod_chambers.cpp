@@ -22,16 +22,16 @@ void set_activity(const JsonPlace& values, const std::string& type, double ms_pe
     if (std::abs(gap - period_ms * std::round(gap / period_ms)) > 1e-6 * period_ms)
       values.at("relax_start").fail(values.at("relax_start").written(), "the end of the contraction");
   } else if (type == "wrapping_cosine") {
-    const double lasts = period_ms * values.at("Tsa").number();
-    e.onset_ms = period_ms - lasts + period_ms / values.at("tpwave").number();
+    const double lasts = period_ms * values.at("Tsa").positive();
+    e.onset_ms = period_ms - lasts + period_ms / values.at("tpwave").positive();
     e.contraction_ms = e.relaxation_ms = lasts / 2;
   } else if (type == "two_hill") {
     chamber.activity = Activity::two_hill;
     e.onset_ms = ms("t_shift");
-    chamber.rise_ms = ms("tau_1");
-    chamber.fall_ms = ms("tau_2");
-    chamber.rise_exponent = values.at("m1").number();
-    chamber.fall_exponent = values.at("m2").number();
+    chamber.rise_ms = values.at("tau_1").positive() * ms_per_unit;
+    chamber.fall_ms = values.at("tau_2").positive() * ms_per_unit;
+    chamber.rise_exponent = values.at("m1").positive();
+    chamber.fall_exponent = values.at("m2").positive();
     chamber.hill_scale = scale_of_hills(chamber, period_ms);
   } else {
     values.at("type").fail("\"" + type + "\"", "half_cosine, piecewise_cosine, two_hill or wrapping_cosine");
@@ -53,7 +53,7 @@ ChamberBlock chamber_of(const JsonPlace& block, const SvZeroDFactors& unit, doub
     e.unstressed_volume_mm3 = volume("Vrd");
     out.chamber.systolic_volume_change_mm3 = volume("Vrs") - volume("Vrd");
     out.inertance_kPa_ms2_per_mm3 =
-        values.number_or("Impedance", 0) * unit.kPa * unit.ms * unit.ms / unit.mm3;
+        values.magnitude_or("Impedance", 0) * unit.kPa * unit.ms * unit.ms / unit.mm3;
   } else if (type == "LinearElastanceChamber" || type == "PiecewiseCosineChamber") {
     e.passive_kPa_per_mm3 = elastance("Epass");
     e.active_kPa_per_mm3 = elastance("Emax");
@@ -86,14 +86,14 @@ TimeSeries series_of(const JsonPlace& values, const char* key, double factor, do
 }
 
 ClosedLoopHeart closed_loop_heart(const JsonPlace& parameters, const SvZeroDFactors& unit, double period_ms) {
-  const auto number = [&](const std::string& key) { return parameters.at(key).number(); };
+  const auto number = [&](const std::string& key) { return parameters.at(key).magnitude(); };
   const double resistance = unit.kPa * unit.ms / unit.mm3, inertance = resistance * unit.ms,
                elastance = unit.kPa / unit.mm3;
   const auto atrium = [&](const std::string& side) {
     Chamber out;
     const double lasts = period_ms * number("Tsa");
     out.elastance = {.active_kPa_per_mm3 = number("Emax_" + side) * elastance,
-                     .onset_ms = period_ms - lasts + period_ms / number("tpwave"),
+                     .onset_ms = period_ms - lasts + period_ms / parameters.at("tpwave").positive(),
                      .contraction_ms = lasts / 2,
                      .relaxation_ms = lasts / 2,
                      .unstressed_volume_mm3 = number("Vaso_" + side) * unit.mm3};

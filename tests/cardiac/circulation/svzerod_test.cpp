@@ -202,6 +202,48 @@ TEST(SvZeroD, AMeshStandsForAChamber) {
                   AllOf(HasSubstr("loop.json: found no chamber \"ventricle\""), HasSubstr("lv_chamber"))));
 }
 
+// The inertance of a chamber's outflow lies between it and its valve.
+TEST(SvZeroD, AChamberWithInductanceReachesItsValveBeyondIt) {
+  json file = closed_loop_file();
+  file["chambers"][1] = {{"type", "ChamberElastanceInductor"},
+                         {"name", "LV"},
+                         {"values",
+                          {{"Emax", 4e8},
+                           {"Emin", 2e7},
+                           {"Vrd", 3e-5},
+                           {"Vrs", 2e-5},
+                           {"t_active", 0.1},
+                           {"t_twitch", 0.5},
+                           {"Impedance", 3e4}}}};
+  SvZeroDHeart heart;
+  heart.has_lv = true;
+  const NetworkCirculation coupled(read_svzerod(file.dump(), "loop.json", kSi, heart), 1);
+  EXPECT_EQ(coupled.names(0).outlet, "AV");
+  EXPECT_EQ(coupled.kinds().flows, 5);
+  // With its own chamber: p = E(t) (V − V₀(t)), and L q̇ = p − p_junction.
+  const NetworkCirculation alone(read_svzerod(file.dump(), "loop.json", kSi), 1);
+  const Vector z = alone.initial_states();
+  const double t = 350;  // the middle of the twitch: A = 1
+  using enum CirculationModel::Quantity;
+  EXPECT_NEAR(reading(alone, "LV", pressure, t, z), 4e8 * (118.52e-6 - 2e-5) * 1e-3, 1e-6);
+  EXPECT_NEAR(reading(alone, "LV", pressure, 50, z), 2e7 * (118.52e-6 - 3e-5) * 1e-3, 1e-9);
+  // The flow of the inertance passes the valve: Δp = R q of the open one.
+  Vector flowing = z;
+  int index = -1;
+  for (int i = 0; i < z.size(); ++i) {
+    Vector more = z;
+    more[i] += 1;
+    if (std::abs(reading(alone, "LV_impedance", flow, t, more) - reading(alone, "LV_impedance", flow, t, z)) >
+        0.5)
+      index = i;
+  }
+  ASSERT_GE(index, 0);
+  flowing[index] = 300;
+  EXPECT_NEAR(reading(alone, "AV", flow, t, flowing), 300, 1e-6);
+  EXPECT_NEAR(reading(alone, "LV_out", pressure, t, flowing) - reading(alone, "AR_SYS", pressure, t, flowing),
+              0.0075 * resistance_per_mmHg_s_per_mL * 300, 1e-3);
+}
+
 // R, then C, then L; behind a junction that splits.
 TEST(SvZeroD, VesselsAndJunctionsObeyTheirEquations) {
   json file = rcr_file();
@@ -317,6 +359,9 @@ TEST(SvZeroD, ErrorsNameFileBlockAndKey) {
   file = rcr_file();
   file["vessels"][0]["boundary_conditions"]["outlet"] = "OUTT";
   EXPECT_THAT(message(file), HasSubstr("found the boundary condition \"OUTT\""));
+  file = rcr_file();
+  file["boundary_conditions"][1]["bc_values"]["Rd"] = -1.0;
+  EXPECT_THAT(message(file), HasSubstr("bc_values.Rd: found -1.0, expected a number of at least 0"));
   file = closed_loop_file();
   file["valves"][0]["params"]["upstream_block"] = "LX";
   EXPECT_THAT(message(file), HasSubstr("valves[0].params.upstream_block: found \"LX\""));

@@ -117,9 +117,12 @@ std::vector<RunKind> kinds() {
 /// several openings of it), what is a kind of its own, and what tells how many beats there are.
 bool elsewhere(const std::string& path) {
   static const std::set<std::string> paths{
-      "anatomy.scheme",     "anatomy.mitral_point", "output.frames",  "reduction.method",
-      "fibres.source",      "activation.mode",      "output.tables",  "output.figures",
-      "output.mesh_series", "region.name",          "time.max_beats", "time.limit_cycle_tolerance_percent"};
+      "anatomy.scheme",      "anatomy.mitral_point", "output.frames",
+      "reduction.method",    "fibres.source",        "activation.mode",
+      "output.tables",       "output.figures",       "output.mesh_series",
+      "region.name",         "time.max_beats",       "time.limit_cycle_tolerance_percent",
+      "contraction.model",   "circulation.loop",     "cavities.pressure_file",
+      "cavities.volume_file"};
   return path.starts_with("mesh.") || paths.contains(path);
 }
 
