@@ -54,7 +54,9 @@ class GivenFiles : public testing::Test {
 
 // The pressures that one run writes are what another follows.
 TEST_F(GivenFiles, TheCavityTableOfARunDrivesAnother) {
-  const std::string beat = protocol("beat.toml", "[circulation]\n[time]\nmax_beats = 1\n");
+  const std::string beat = protocol("beat.toml",
+                                    "[circulation]\ninitial_aortic_pressure_mmHg = "
+                                    "20\ncompliance_mL_per_mmHg = 0.4\n[time]\nmax_beats = 1\n");
   const ProgramRun first = run_program("run " + beat + " --force --out " + in("beat").string());
   ASSERT_EQ(first.status, 0) << first.err;
   const std::string follow =
@@ -63,7 +65,7 @@ TEST_F(GivenFiles, TheCavityTableOfARunDrivesAnother) {
   ASSERT_EQ(second.status, 0) << second.err;
   auto a = columns(in("beat/cavity.csv")), b = columns(in("follow/cavity.csv"));
   const auto [low, high] = std::ranges::minmax_element(a["volume_mL"]);
-  EXPECT_GT(*high - *low, 5);
+  EXPECT_GT(*high - *low, 2);  // the small ellipsoid, loaded as a human heart
   EXPECT_NEAR(*std::ranges::min_element(b["volume_mL"]), *low, 0.02 * (*high - *low));
   const ProgramRun third =
       run_program("run " + follow + " --set cavities.repeats=yes --set time.duration_ms=1600 --force --out " +
