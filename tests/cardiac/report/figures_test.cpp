@@ -6,9 +6,9 @@
 #include <regex>
 #include <set>
 
+#include <cardiac/core/csv_reader.hpp>
 #include <cardiac/report/axes.hpp>
 #include <cardiac/report/colour_map.hpp>
-#include <cardiac/core/csv_reader.hpp>
 #include <cardiac/report/figures.hpp>
 #include <cardiac/report/pv_loop.hpp>
 #include <cardiac/report/strain_curves.hpp>
