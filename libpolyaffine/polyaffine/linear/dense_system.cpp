@@ -9,7 +9,8 @@ namespace {
 
 class DenseSystem : public LinearSystem {
  public:
-  DenseSystem(int n, std::vector<char> fixed) : K_(Matrix::Zero(n, n)), fixed_(std::move(fixed)) {
+  DenseSystem(int n, std::vector<char> fixed, HeldDirections held)
+      : K_(Matrix::Zero(n, n)), fixed_(std::move(fixed)), held_(std::move(held)) {
     fixed_.resize(n, 0);
   }
 
@@ -36,6 +37,7 @@ class DenseSystem : public LinearSystem {
   }
 
   bool factorise() override {
+    for (const HeldDirection& h : held_) hold(h);
     for (std::size_t i = 0; i < fixed_.size(); ++i)
       if (fixed_[i]) {
         const auto k = static_cast<Eigen::Index>(i);
@@ -64,6 +66,16 @@ class DenseSystem : public LinearSystem {
   bool positive_definite() const override { return positive_; }
 
  private:
+  // P K P + n nᵀ in the rows and columns of a function, of the lower triangle.
+  void hold(const HeldDirection& h) {
+    const Eigen::Index first = 3 * static_cast<Eigen::Index>(h.function), after = first + 3;
+    const Mat3 P = h.free();
+    const Mat3 own = K_.block<3, 3>(first, first).selfadjointView<Eigen::Lower>();
+    K_.block(first, 0, 3, first) = (P * K_.block(first, 0, 3, first)).eval();
+    K_.block(after, first, K_.rows() - after, 3) = (K_.block(after, first, K_.rows() - after, 3) * P).eval();
+    K_.block<3, 3>(first, first) = P * own * P + h.direction * h.direction.transpose();
+  }
+
   // Of what the elimination leaves of the diagonal, as a share of it: independent of the units of the
   // unknowns.
   double smallest_pivot() const {
@@ -72,6 +84,7 @@ class DenseSystem : public LinearSystem {
 
   Matrix K_;
   std::vector<char> fixed_;
+  HeldDirections held_;
   Eigen::LLT<Matrix> cholesky_;
   std::optional<Eigen::PartialPivLU<Matrix>> lu_;
   bool positive_ = false;
@@ -79,8 +92,9 @@ class DenseSystem : public LinearSystem {
 
 }  // namespace
 
-std::unique_ptr<LinearSystem> dense_system(int num_unknowns, const std::vector<char>& fixed) {
-  return std::make_unique<DenseSystem>(num_unknowns, fixed);
+std::unique_ptr<LinearSystem> dense_system(int num_unknowns, const std::vector<char>& fixed,
+                                           const HeldDirections& held) {
+  return std::make_unique<DenseSystem>(num_unknowns, fixed, held);
 }
 
 }  // namespace polyaffine

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include <polyaffine/core/types.hpp>
+#include <polyaffine/linear/held_direction.hpp>
 
 namespace polyaffine {
 
@@ -29,7 +29,9 @@ class LinearSystem {
   virtual bool positive_definite() const = 0;
 };
 
-/// Dense storage, Cholesky with LU with partial pivoting as the fallback where K is indefinite.
-std::unique_ptr<LinearSystem> dense_system(int num_unknowns, const std::vector<char>& fixed = {});
+/// Dense storage, Cholesky with LU with partial pivoting as the fallback where K is indefinite. Of held
+/// directions n only the part P K P + n nᵀ is left, P = I − n nᵀ, as the identity is of fixed unknowns.
+std::unique_ptr<LinearSystem> dense_system(int num_unknowns, const std::vector<char>& fixed = {},
+                                           const HeldDirections& held = {});
 
 }  // namespace polyaffine

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <unordered_map>
 
 #include <polyaffine/core/serial_blas.hpp>
 
@@ -18,7 +19,8 @@ namespace {
 // the other in memory and then copied to the compressed columns of CHOLMOD.
 class SparseSystem : public LinearSystem {
  public:
-  SparseSystem(const std::vector<const FieldTable*>& tables, std::vector<char> fixed, bool definite_only)
+  SparseSystem(const std::vector<const FieldTable*>& tables, std::vector<char> fixed, bool definite_only,
+               const HeldDirections& directions)
       : fixed_(std::move(fixed)), definite_only_(definite_only) {
     fixed_.resize(3 * static_cast<std::size_t>(tables.front()->num_functions), 0);
     cholmod_l_start(&common_);
@@ -29,6 +31,7 @@ class SparseSystem : public LinearSystem {
     const Couples couples = couples_of(tables);
     place_ = fill_reducing_places(couples);
     build_pattern(couples);
+    for (const HeldDirection& h : directions) held_at_[place_[h.function]] = h.direction;
     common_.nmethods = 1;
     common_.method[0].ordering = CHOLMOD_NATURAL;
     common_.postorder = 0;  // places are in it already
@@ -69,6 +72,7 @@ class SparseSystem : public LinearSystem {
 
   bool factorise() override {
     const SerialBlas serial;
+    if (!held_at_.empty()) hold_directions();
     fill_columns();
     if (!std::all_of(values_.begin(), values_.end(), [](double v) { return std::isfinite(v); })) return false;
     cholmod_sparse A = view();
@@ -168,6 +172,26 @@ class SparseSystem : public LinearSystem {
       std::copy_n(fixed_.data() + 3 * f, 3, fixed_at_.data() + 3 * static_cast<std::ptrdiff_t>(place_[f]));
   }
 
+  // Of every block K_ab what is left between the free directions, and n nᵀ beside it on the diagonal.
+  void hold_directions() {
+    const auto direction = [&](int place) -> const Vec3* {
+      const auto found = held_at_.find(place);
+      return found == held_at_.end() ? nullptr : &found->second;
+    };
+    for (int b = 0; b + 1 < std::ssize(start_); ++b) {
+      const Vec3* nb = direction(b);
+      for (int couple = start_[b]; couple < start_[b + 1]; ++couple) {
+        const int a = coupled_[couple];
+        const Vec3* na = direction(a);
+        if (na == nullptr && nb == nullptr) continue;
+        Eigen::Map<Mat3> block(blocks_.data() + 9 * static_cast<std::ptrdiff_t>(couple));
+        if (na) block -= (*na * (na->transpose() * block)).eval();
+        if (nb) block -= ((block * *nb) * nb->transpose()).eval();
+        if (a == b && nb) block += *nb * nb->transpose();
+      }
+    }
+  }
+
   void fill_columns() {
     double* value = values_.data();
     for (std::size_t b = 0; b + 1 < start_.size(); ++b)
@@ -248,8 +272,9 @@ class SparseSystem : public LinearSystem {
 
   std::vector<char> fixed_;
   bool definite_only_;
-  std::vector<char> fixed_at_;  // the same in the new order
-  std::vector<int> place_;      // of function f in it
+  std::vector<char> fixed_at_;             // the same in the new order
+  std::vector<int> place_;                 // of function f in it
+  std::unordered_map<int, Vec3> held_at_;  // directions, by place
   std::vector<int> start_, coupled_;
   std::vector<SuiteSparse_long> columns_, rows_;
   std::vector<double> blocks_, values_;
@@ -265,8 +290,9 @@ class SparseSystem : public LinearSystem {
 }  // namespace
 
 std::unique_ptr<LinearSystem> sparse_system(const std::vector<const FieldTable*>& tables,
-                                            const std::vector<char>& fixed, bool definite_only) {
-  return std::make_unique<SparseSystem>(tables, fixed, definite_only);
+                                            const std::vector<char>& fixed, bool definite_only,
+                                            const HeldDirections& held) {
+  return std::make_unique<SparseSystem>(tables, fixed, definite_only, held);
 }
 
 }  // namespace polyaffine

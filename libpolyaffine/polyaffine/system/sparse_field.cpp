@@ -7,7 +7,7 @@ namespace polyaffine {
 std::unique_ptr<LinearSystem> sparse_field(const System& system) {
   std::vector<const FieldTable*> tables;
   for (const auto& term : system.terms) term->add_tables(tables);
-  return sparse_system(tables, system.fixed);
+  return sparse_system(tables, system.fixed, false, system.held);
 }
 
 }  // namespace polyaffine

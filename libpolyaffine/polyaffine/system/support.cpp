@@ -3,13 +3,12 @@
 #include <utility>
 
 #include <polyaffine/material/parameters.hpp>
-#include <polyaffine/material/springs.hpp>
 
 namespace polyaffine {
 namespace {
 
-FieldEnergy unit_springs(FieldTable surface, Points normals) {
-  const auto law = normals.size() > 0 ? std::make_shared<SurfaceSpring>(1.0, std::move(normals))
+FieldEnergy unit_springs(FieldTable surface, Points normals, SpringDirection direction) {
+  const auto law = normals.size() > 0 ? std::make_shared<SurfaceSpring>(1.0, std::move(normals), direction)
                                       : std::make_shared<SurfaceSpring>(1.0);
   return FieldEnergy(std::move(surface), {law});
 }
@@ -17,7 +16,7 @@ FieldEnergy unit_springs(FieldTable surface, Points normals) {
 }  // namespace
 
 Support::Support(FieldTable surface, SupportParameters parameters)
-    : unit_(unit_springs(std::move(surface), std::move(parameters.normals))),
+    : unit_(unit_springs(std::move(surface), std::move(parameters.normals), parameters.direction)),
       stiffness_(parameters.stiffness_kPa_per_mm),
       damping_(parameters.damping_kPa_ms_per_mm),
       c_{0, unit_.table().num_unknowns()} {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <polyaffine/material/springs.hpp>
 #include <polyaffine/system/field_energy.hpp>
 #include <polyaffine/system/term.hpp>
 
@@ -10,14 +11,15 @@ namespace polyaffine {
 struct SupportParameters {
   double stiffness_kPa_per_mm = 0;
   double damping_kPa_ms_per_mm = 0;
-  /// Unit normals of the reference surface, one a point (3 × points): the support acts along them alone.
-  /// Empty: in all directions.
+  /// Unit normals of the reference surface, one a point (3 × points): the support acts along them alone, or
+  /// across them alone. Empty: in all directions.
   Points normals = {};
+  SpringDirection direction = SpringDirection::along_normal;
 };
 
-/// The traction −k u − η u̇ on a surface, or its part along the normals, −(k u·n + η u̇·n) n; parameters
-/// "stiffness" and "damping". A surface that is held by both everywhere is a Robin boundary (Pfaller et al.
-/// 2019, Biomech Model Mechanobiol 18:503).
+/// The traction −k u − η u̇ on a surface, or its part along the normals, −(k u·n + η u̇·n) n, or that across
+/// them; parameters "stiffness" and "damping". A surface that is held by both everywhere is a Robin boundary
+/// (Pfaller et al. 2019, Biomech Model Mechanobiol 18:503).
 class Support : public Term {
  public:
   /// `surface`: the displacement table of the surface. Throws InputError when a parameter is negative.

@@ -3,6 +3,17 @@
 #include <utility>
 
 namespace polyaffine {
+namespace {
+
+// Keeps of coefficients or forces what the held directions leave free.
+void slide(const HeldDirections& held, Eigen::Ref<Vector> field) {
+  for (const HeldDirection& h : held) {
+    auto v = field.segment<3>(3 * static_cast<Eigen::Index>(h.function));
+    v -= h.direction * h.direction.dot(v);
+  }
+}
+
+}  // namespace
 
 Residual System::residual(const At& at) const {
   Residual out;
@@ -13,6 +24,11 @@ Residual System::residual(const At& at) const {
     restrict(c.of(out.values));
     return out;
   }
+  for (const HeldDirection& h : held) {
+    auto r = out.values.segment<3>(3 * static_cast<Eigen::Index>(h.function));
+    const auto moved = at.y.segment<3>(3 * static_cast<Eigen::Index>(h.function));
+    r += h.direction * h.direction.dot(moved - r);
+  }
   for (Eigen::Index i = 0; i < std::ssize(fixed); ++i)
     if (fixed[static_cast<std::size_t>(i)])
       out.values[i] = at.y[i] - (prescribed.size() > 0 ? at.t * prescribed[i] : 0.0);
@@ -22,19 +38,21 @@ Residual System::residual(const At& at) const {
 void System::prescribe(double t, Vector& y) const {
   const Unknowns c = layout.field();
   if (projection) c.of(y) = (t * projection->c0 + projection->Z * projection->reduce(c.of(y))).eval();
+  slide(held, c.of(y));
   for (Eigen::Index i = 0; i < std::ssize(fixed); ++i)
     if (fixed[static_cast<std::size_t>(i)]) y[i] = prescribed.size() > 0 ? t * prescribed[i] : 0.0;
 }
 
 void System::restrict(Eigen::Ref<Vector> force) const {
   if (projection) force = (projection->Z * projection->reduce(force)).eval();
+  slide(held, force);
   for (Eigen::Index i = 0; i < std::ssize(fixed); ++i)
     if (fixed[static_cast<std::size_t>(i)]) force[i] = 0;
 }
 
 std::unique_ptr<LinearSystem> System::make_linear() const {
   if (linear) return linear(*this);
-  return projection ? projected_system(projection) : dense_system(layout.field().size, fixed);
+  return projection ? projected_system(projection) : dense_system(layout.field().size, fixed, held);
 }
 
 System field_system(int num_unknowns, Terms terms, std::vector<char> fixed, double tolerance_mm) {

@@ -9,14 +9,15 @@
 namespace polyaffine {
 
 /// The equation Σ_terms R(t, y, ẏ) = 0 over the blocks of a layout, with fixed unknowns of the field, c_i =
-/// t · prescribed_i, or linear constraints C c = t d by projection (not both). All that Newton's method, load
-/// stepping and time integration know.
+/// t · prescribed_i, functions that slide in a plane, n·c_a = 0, or linear constraints C c = t d by
+/// projection (not together with either). All that Newton's method, load stepping and time integration know.
 struct System {
   StateLayout layout;
   Terms terms;
   std::vector<char> fixed = {};                       ///< by unknown of the field; empty: none
   Vector prescribed = {};                             ///< by unknown of the field, used where fixed; empty: 0
   std::shared_ptr<const Projection> projection = {};  ///< null: no linear constraints
+  HeldDirections held = {};  ///< functions of the field that slide; not together with a projection
 
   /// Makes the LinearSystem of the field; empty: dense_system, or projected_system with a projection.
   std::function<std::unique_ptr<LinearSystem>(const System&)> linear = {};

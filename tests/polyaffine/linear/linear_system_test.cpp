@@ -89,6 +89,30 @@ TEST(LinearSystem, SingularOrBrokenMatricesAreRefused) {
   }
 }
 
+// Functions that slide in a plane: the solution is that of P K P + n nᵀ.
+TEST_P(DenseAndSparse, HoldDirections) {
+  const Blocks blocks;
+  const HeldDirections held{
+      {3, Vec3(1, 2, -1).normalized()}, {4, Vec3(0, 1, 1).normalized()}, {20, Vec3::UnitX()}};
+  testing::MatrixSystem exact(blocks.unknowns());
+  blocks.add(exact, GetParam());
+  Matrix P = Matrix::Identity(blocks.unknowns(), blocks.unknowns());
+  for (const HeldDirection& h : held) P.block<3, 3>(3 * h.function, 3 * h.function) = h.free();
+  const Matrix K = P * exact.K * P + Matrix::Identity(P.rows(), P.cols()) - P;
+  const Vector rhs = P * random_vector(blocks.unknowns(), 1, 98);
+  const auto dense = dense_system(blocks.unknowns(), {}, held);
+  const auto sparse = sparse_system({&blocks.table}, {}, false, held);
+  for (LinearSystem* system : {dense.get(), sparse.get()}) {
+    system->set_zero();
+    blocks.add(*system, GetParam());
+    ASSERT_TRUE(system->factorise());
+    const Vector x = system->solve(rhs);
+    EXPECT_LT((K * x - rhs).norm(), 1e-11 * rhs.norm());
+    for (const HeldDirection& h : held)
+      EXPECT_LT(std::abs(h.direction.dot(x.segment<3>(3 * h.function))), 1e-13 * x.norm());
+  }
+}
+
 // Two stiff springs to the ground and one between them that is softer by far; then without those to the
 // ground.
 TEST(LinearSystem, NearlySingularIsRefusedAndBadlyScaledIsNot) {

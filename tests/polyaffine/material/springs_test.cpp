@@ -39,6 +39,17 @@ TEST(Springs, EnergyOfAUniformDisplacement) {
   EXPECT_LT(normal.evaluate({face.uniform(Vec3(1, 0.8, -0.6))}).gradient.norm(), 1e-12);  // slides along
 }
 
+TEST(Springs, AcrossNormalsIsTheRest) {
+  const Face face;
+  const Points normals = Vec3(0, 0.6, 0.8).replicate(1, face.points.X.cols());
+  const FieldEnergy across =
+      face.energy(std::make_shared<SurfaceSpring>(kStiffness, normals, SpringDirection::across_normal));
+  const Vec3 u(0.2, -0.3, 0.5);  // 0.22 along the normal
+  EXPECT_NEAR(across.evaluate({face.uniform(u)}).value,
+              kStiffness / 2 * (u.squaredNorm() - 0.22 * 0.22) * kArea, 1e-12);
+  EXPECT_LT(across.evaluate({face.uniform(Vec3(0, 0.6, 0.8))}).gradient.norm(), 1e-12);
+}
+
 TEST(Springs, DerivativesMatchFiniteDifferences) {
   const Face face;
   Points normals(3, face.points.X.cols());
