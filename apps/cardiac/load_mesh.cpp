@@ -40,6 +40,7 @@ HeartMeshOptions options_of(const Protocol& protocol, const WallSizeRule& size) 
   }
   if (protocol.activation && protocol.activation->mode == protocol::ActivationMode::array)
     options.all_fields = true;
+  if (protocol.boundary.epicardial_weight_array) options.all_fields = true;
   return options;
 }
 
@@ -97,8 +98,32 @@ Anatomy anatomy_of(const HeartMesh& heart, const Protocol& protocol, std::vector
 
 namespace {
 
+// How firmly the epicardium is held at each vertex, by an array of the mesh file.
+polyaffine::Vector epicardial_weight(const HeartMesh& heart, const Protocol& protocol) {
+  const std::string& name = *protocol.boundary.epicardial_weight_array;
+  const std::string where = mesh_path(protocol).string() + ": boundary.epicardial_weight_array: found ";
+  const auto& fields = heart.file.point_fields;
+  const auto field = fields.find(name);
+  if (field == fields.end()) {
+    std::string there;
+    for (const auto& [other, values] : fields) there += (there.empty() ? "" : ", ") + other;
+    throw polyaffine::InputError(where + "no array \"" + name + "\" of points, expected one of: " +
+                                 (there.empty() ? "(the file has none)" : there));
+  }
+  const polyaffine::Matrix& values = field->second;
+  if (values.rows() != 1)
+    throw polyaffine::InputError(where + std::to_string(values.rows()) + " numbers a point in \"" + name +
+                                 "\", expected one");
+  if (Eigen::Index at = 0; values.row(0).minCoeff(&at) < 0)
+    throw polyaffine::InputError(where + std::to_string(values(0, at)) + " in \"" + name + "\" at point " +
+                                 std::to_string(at) + ", expected factors of at least 0");
+  return values.row(0).transpose();
+}
+
 Anatomy with_fibres(const HeartMesh& heart, const Protocol& protocol, std::vector<std::string>& warnings) {
   Anatomy anatomy = anatomy_of(heart, protocol, warnings);
+  if (protocol.boundary.epicardial_weight_array)
+    anatomy.epicardial_weight = epicardial_weight(heart, protocol);
   if (!protocol.fibres) return anatomy;
   if (protocol.fibres->source == protocol::FibreSource::file) {
     const auto fibres = std::make_shared<const FileFibres>(heart.file, mesh_path(protocol).string());

@@ -20,8 +20,9 @@ struct Anatomy {
   polyaffine::TetMesh mesh;
   SurfaceLabels labels;
   std::shared_ptr<const VentricularCoordinates> coordinates;
-  std::vector<int> segment;  ///< AHA segment of each tet
-  FibreFunction fibres;      ///< empty: a rule in the ventricular coordinates
+  std::vector<int> segment;              ///< AHA segment of each tet
+  FibreFunction fibres;                  ///< empty: a rule in the ventricular coordinates
+  polyaffine::Vector epicardial_weight;  ///< of each vertex, ≥ 0: how firmly it is held; empty: 1
 };
 
 /// The boundary of the mesh carries the labels kEndocardium, kEpicardium and kBase, with two ventricles also

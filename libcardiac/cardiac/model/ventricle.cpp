@@ -1,9 +1,9 @@
 #include "cardiac/model/ventricle.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 
 #include <cardiac/activation/activation.hpp>
+#include <cardiac/model/supports.hpp>
 #include <cardiac/model/vertex_displacement.hpp>
 #include <cardiac/scene/contraction_time.hpp>
 #include <polyaffine/core/error.hpp>
@@ -11,7 +11,6 @@
 #include <polyaffine/material/signed_volume.hpp>
 #include <polyaffine/system/inertia.hpp>
 #include <polyaffine/system/sparse_field.hpp>
-#include <polyaffine/system/support.hpp>
 
 namespace cardiac {
 
@@ -96,24 +95,6 @@ std::shared_ptr<const ContractionField> build_contraction(const Anatomy& anatomy
   return std::make_shared<ContractionField>(std::move(out));
 }
 
-polyaffine::Points unit_normals(const polyaffine::SurfacePoints& points) {
-  polyaffine::Points out(3, points.X.cols());
-  for (Eigen::Index q = 0; q < points.X.cols(); ++q)
-    out.col(q) = Vec3(points.X_xi.col(q)).cross(Vec3(points.X_eta.col(q))).normalized();
-  return out;
-}
-
-std::shared_ptr<const polyaffine::Term> epicardial_support(const polyaffine::Basis& basis,
-                                                           const polyaffine::SurfacePoints& points,
-                                                           const scene::Boundary& boundary) {
-  polyaffine::SupportParameters parameters{boundary.epicardial_stiffness_kPa_per_mm,
-                                           boundary.epicardial_damping_kPa_ms_per_mm};
-  if (boundary.epicardial_directions == scene::SupportDirections::normal)
-    parameters.normals = unit_normals(points);
-  return std::make_shared<polyaffine::Support>(polyaffine::displacement_table(basis, points),
-                                               std::move(parameters));
-}
-
 // The mass is integrated at points that are exact for products of two functions: those of the elements, or of
 // a reduced model its own.
 StateTerm inertia(const Discretisation& d, double density_mg_per_mm3) {
@@ -127,6 +108,16 @@ StateTerm inertia(const Discretisation& d, double density_mg_per_mm3) {
   };
 }
 
+// The surface of a cavity, closed at its base. Where the base moves: by cones to the moving centre of its
+// rim, of elements with points of their own, since else every face would see the functions of the rim.
+polyaffine::FieldTable enclosing_table(const polyaffine::Basis& basis, const CavitySurface& surface) {
+  if (!surface.rim) return polyaffine::surface_table(basis, surface.points, surface.base_centre);
+  if (dynamic_cast<const polyaffine::LagrangeBasis*>(&basis) == nullptr)
+    return polyaffine::surface_table(basis, surface.points, surface.rim->centre);
+  return polyaffine::joined(polyaffine::surface_table(basis, surface.points, surface.base_centre),
+                            polyaffine::lid_table(basis, *surface.rim, surface.base_centre));
+}
+
 }  // namespace
 
 Vector ContractionField::tension(double time_ms) const {
@@ -137,7 +128,7 @@ Vector ContractionField::tension(double time_ms) const {
 
 Cavity cavity_of(const polyaffine::Basis& basis, const CavitySurface& surface) {
   return {surface.name,
-          std::make_shared<FieldEnergy>(polyaffine::surface_table(basis, surface.points, surface.base_centre),
+          std::make_shared<FieldEnergy>(enclosing_table(basis, surface),
                                         std::vector<std::shared_ptr<const polyaffine::Law>>{
                                             std::make_shared<polyaffine::SignedVolume>(1.0 / 3)})};
 }
@@ -171,8 +162,8 @@ Ventricle assemble_ventricle(std::shared_ptr<const Anatomy> anatomy, const Scene
   ++out.built[d.sparse ? "full order" : "reduction"];
   if (!d.cavities.empty()) ++out.built["cavity"];
   for (const CavitySurface& surface : d.cavities) out.cavities.push_back(cavity_of(*d.basis, surface));
-  if (!d.epicardium_points.tet.empty())
-    out.supports.push_back(epicardial_support(*d.basis, d.epicardium_points, scene.boundary));
+  check_held(*anatomy, scene, d);
+  out.supports = supports(*anatomy, scene, d);
   if (scene.tissue.density_mg_per_mm3 > 0 && scene.contraction) {
     ++out.built["inertia"];
     out.states.push_back(inertia(d, scene.tissue.density_mg_per_mm3));
@@ -187,6 +178,7 @@ polyaffine::System wall_system(const Ventricle& ventricle, polyaffine::PointValu
   polyaffine::System out = polyaffine::field_system(ventricle.num_coefficients(),
                                                     {polyaffine::solid(ventricle.wall, std::move(tension))},
                                                     ventricle.discretisation.fixed, tolerance_mm);
+  out.held = ventricle.discretisation.held;
   if (ventricle.discretisation.sparse) out.linear = polyaffine::sparse_field;
   out.terms.insert(out.terms.end(), ventricle.supports.begin(), ventricle.supports.end());
   return out;

@@ -179,30 +179,6 @@ Table cavities_table() {
   return table.build();
 }
 
-Table boundary_table() {
-  TableBuilder table("boundary", "How the ventricle is held.", &Protocol::boundary);
-  table
-      .key("base", &Boundary::base,
-           {.meaning = "clamped: the base does not move, its slope is free", .source = "Land 2015"})
-      .key("epicardial_stiffness_kPa_per_mm", &Boundary::epicardial_stiffness_kPa_per_mm,
-           {.unit = "kPa/mm",
-            .range = {0, 1e6},
-            .meaning = "springs of the pericardium per reference area; 0: none",
-            .source = "convention: nothing that is not asked for"})
-      .key("epicardial_damping_kPa_ms_per_mm", &Boundary::epicardial_damping_kPa_ms_per_mm,
-           {.unit = "kPa·ms/mm",
-            .range = {0, 1e6},
-            .meaning = "dashpots of the pericardium per reference area; 0: none",
-            .source = "convention: nothing that is not asked for; Pfaller 2019: 0.005",
-            .also = {contracts()}})
-      .key("epicardial_directions", &Boundary::epicardial_directions,
-           {.meaning = "normal: springs and dashpots act along the reference normal, so that the heart may "
-                       "slide and turn; all: in all directions",
-            .source = "Pfaller 2019: normal",
-            .also = {held()}});
-  return table.build();
-}
-
 Table time_table() {
   TableBuilder table("time", "Beats, steps and tolerances.", &Protocol::time);
   table

@@ -92,10 +92,8 @@ Condition along_sheets() {
 }
 
 Condition held() {
-  return {"a stiffness or damping of the epicardium", [](const Protocol& p, std::size_t) {
-            return p.boundary.epicardial_stiffness_kPa_per_mm > 0 ||
-                   p.boundary.epicardial_damping_kPa_ms_per_mm > 0;
-          }};
+  return {"a stiffness or damping of the epicardium",
+          [](const Protocol& p, std::size_t) { return p.boundary.holds_epicardium(); }};
 }
 
 Condition differs() {

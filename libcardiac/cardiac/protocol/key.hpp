@@ -79,6 +79,7 @@ const std::vector<Table>& tables();
 std::vector<Table> heart_tables();
 std::vector<Table> model_tables();
 std::vector<Table> beat_tables();
+Table boundary_table();
 std::vector<Table> circulation_tables();
 std::vector<Table> network_tables();
 

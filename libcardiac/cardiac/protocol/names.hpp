@@ -75,11 +75,14 @@ constexpr Names<3> names_of(ElementType) {
 constexpr Names<3> names_of(ValveLaw) {
   return {"smooth", "arctan", "tanh"};
 }
-constexpr Names<1> names_of(Base) {
-  return {"clamped"};
+constexpr Names<3> names_of(Base) {
+  return {"clamped", "elastic", "sliding"};
 }
 constexpr Names<2> names_of(SupportDirections) {
   return {"normal", "all"};
+}
+constexpr Names<2> names_of(HeightLaw) {
+  return {"linear", "smooth"};
 }
 
 /// The word of one value, for instance "polyaffine" for Method::polyaffine.

@@ -172,6 +172,39 @@ void check_contraction_time(const Protocol& protocol, const Place& place) {
   }
 }
 
+// What can be told without the mesh: that nothing holds a heart whose base moves, and what does not know such
+// a base.
+void check_boundary(const Protocol& protocol, const Place& place) {
+  const Boundary& b = protocol.boundary;
+  if (b.epicardial_weight_array && protocol.mesh.shape)
+    fail(place, "boundary.epicardial_weight_array",
+         "found \"" + *b.epicardial_weight_array +
+             "\" beside mesh.shape, expected a mesh.file with such an array");
+  if (b.epicardial_weight_array && protocol.reduction.method == Method::polyaffine &&
+      protocol.reduction.preset == Preset::tuned)
+    fail(place, "boundary.epicardial_weight_array",
+         "found with reduction.preset = tuned, whose file does not hold it; expected preset = \"fast\" or "
+         "\"accurate\", or weights by height alone");
+  if (!b.base_moves()) return;
+  const std::string base = "found boundary.base = " + name_of(b.base) + ", expected ";
+  if (b.base == Base::elastic && b.base_normal_stiffness_kPa_per_mm == 0 &&
+      b.base_inplane_stiffness_kPa_per_mm == 0 && b.epicardial_stiffness_kPa_per_mm == 0)
+    fail(place, "boundary.base_normal_stiffness_kPa_per_mm",
+         "nothing holds the heart: found 0 kPa/mm, like base_inplane_stiffness_kPa_per_mm and "
+         "epicardial_stiffness_kPa_per_mm; expected some of them above 0 kPa/mm");
+  const Reduction& reduction = protocol.reduction;
+  if (reduction.method == Method::fem) return;
+  if (reduction.weights == Weights::sigmoid)
+    fail(place, "reduction.weights", base + "weights = \"tents\" with it: the others vanish at the base");
+  if (reduction.preset == Preset::tuned)
+    fail(place, "reduction.preset",
+         base +
+             "preset = \"fast\" or \"accurate\" with it: learned functions vanish at "
+             "the base");
+  if (reduction.integration == Integration::trained)
+    fail(place, "reduction.integration", base + "integration = \"cells\" or \"gauss\" with it");
+}
+
 void check_load(const Protocol& protocol, const Place& place) {
   if (protocol.cavities && protocol.circulation) {
     fail(place, "cavities",
@@ -269,6 +302,7 @@ void check_rules(const Protocol& protocol, const Place& place) {
   check_activity(protocol, place);
   check_contraction_time(protocol, place);
   check_load(protocol, place);
+  check_boundary(protocol, place);
   check_regions(protocol.regions, protocol.scheme_assumed ? Scheme::aha29 : *protocol.anatomy.scheme, place);
 }
 

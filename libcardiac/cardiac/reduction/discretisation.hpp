@@ -9,6 +9,7 @@
 #include <cardiac/scene/scene.hpp>
 #include <cardiac/tissue/fibre_axes.hpp>
 #include <polyaffine/kinematics/basis.hpp>
+#include <polyaffine/kinematics/moving_rim.hpp>
 #include <polyaffine/linear/linear_system.hpp>
 #include <polyaffine/system/pressure_space.hpp>
 
@@ -20,6 +21,13 @@ struct CavitySurface {
   std::string name;  ///< "lv", "rv"
   polyaffine::SurfacePoints points;
   polyaffine::Vec3 base_centre = polyaffine::Vec3::Zero();
+  std::optional<polyaffine::MovingRim> rim = {};  ///< where the base moves: it closes the cavity
+};
+
+/// What holds the base of a heart in its plane as a whole while every point of it slides.
+struct BaseRing {
+  polyaffine::MovingRim rim;
+  polyaffine::Vec3 normal = polyaffine::Vec3::UnitZ();  ///< unit, out of the heart
 };
 
 /// Shape functions with their integration points: a full-order or a reduced model of the same wall.
@@ -37,7 +45,10 @@ struct Discretisation {
   polyaffine::WallPoints points;
   std::vector<CavitySurface> cavities;          ///< that have a load: the left ventricle's first
   polyaffine::SurfacePoints epicardium_points;  ///< empty unless a spring acts there
+  polyaffine::SurfacePoints base_points;        ///< the same of the base
+  std::optional<BaseRing> ring;                 ///< of a sliding base
   std::vector<char> fixed;                      ///< unknowns held at zero
+  polyaffine::HeldDirections held;              ///< functions that slide
   int num_unknowns = 0;                         ///< that are not fixed
   bool sparse = false;
 
@@ -67,7 +78,11 @@ using FaceRule =
 /// strains, so that nothing would resist some motion), or when a reduced model has more than 12 000 unknowns.
 void check_size(const Discretisation& discretisation);
 
-/// Adds the points of the surfaces on which the scene has loads or springs.
+/// The mean normal of the base, unit, out of the heart: the direction that a sliding base is held in.
+polyaffine::Vec3 base_normal(const Anatomy& anatomy);
+
+/// Adds the points of the surfaces on which the scene has loads or springs, and the rims of cavities whose
+/// base moves.
 void add_surface_points(const Anatomy& anatomy, const Scene& scene, const polyaffine::LagrangeBasis& geometry,
                         const FaceRule& rule, Discretisation& discretisation);
 

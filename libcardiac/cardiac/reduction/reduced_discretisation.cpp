@@ -8,6 +8,7 @@
 #include <cardiac/reduction/axes_check.hpp>
 #include <cardiac/reduction/biventricular_frames.hpp>
 #include <cardiac/reduction/border_frames.hpp>
+#include <cardiac/reduction/global_frame.hpp>
 #include <cardiac/reduction/nested_space.hpp>
 #include <cardiac/reduction/reduced_points.hpp>
 #include <polyaffine/core/error.hpp>
@@ -62,10 +63,11 @@ std::vector<Monomial> of_cap(const std::vector<Monomial>& functions) {
 }
 
 // The functions of every frame and the axes of their coefficients: with heart_axes longitudinal,
-// circumferential and radial, but Cartesian in the cap and in the right free wall. Those of the frames at the
-// base have a factor l, so that they vanish on the base and hold it.
+// circumferential and radial, but Cartesian in the cap and in the right free wall. Those of the frames at a
+// clamped base have a factor l, so that they vanish on the base and hold it; at a sliding one they are
+// Cartesian, since one direction of their coefficients is held.
 std::vector<FrameFunctions> tent_functions(const SegmentFrames& frames, const std::vector<Monomial>& all,
-                                           bool heart_axes) {
+                                           bool heart_axes, scene::Base base) {
   const FrameLayout& layout = frames.layout();
   const auto* both = dynamic_cast<const BiventricularFrames*>(&frames);
   const auto is_right = [both](int frame) { return both != nullptr && both->is_right(frame); };
@@ -74,10 +76,25 @@ std::vector<FrameFunctions> tent_functions(const SegmentFrames& frames, const st
   for (int i = 0; i < frames.num_frames(); ++i) {
     const bool is_cap = i == layout.cap(), at_base = i >= layout.num_nodes();
     FrameFunctions functions{is_cap ? of_cap(own[i]) : own[i], heart_axes && !is_cap && !is_right(i)};
-    if (at_base) std::erase_if(functions.monomials, [](const Monomial& m) { return m[0] == 0; });
+    if (at_base && base == scene::Base::sliding) functions.local_axes = false;
+    if (at_base && base == scene::Base::clamped)
+      std::erase_if(functions.monomials, [](const Monomial& m) { return m[0] == 0; });
     out.push_back(functions);
   }
   return out;
+}
+
+// Sliding: what does not vanish on the base does not move along its normal.
+void hold_base(const Anatomy& anatomy, Discretisation& out) {
+  const polyaffine::FrameBasis& basis = *out.frame_basis;
+  const Vec3 normal = base_normal(anatomy);
+  const int global = static_cast<int>(basis.frames().size()) - 1;
+  const auto hold = [&](int frame) {
+    for (const Monomial& m : basis.frames()[static_cast<std::size_t>(frame)].monomials)
+      if (frame == global || m[0] == 0) out.held.push_back({basis.function(frame, m), normal});
+  };
+  for (int i = out.layout.num_nodes(); i < out.frames->num_frames(); ++i) hold(i);
+  hold(global);
 }
 
 // Tent weights. Pressures do without the frames at the base, where nothing holds them; border functions are
@@ -87,13 +104,20 @@ void add_tent_basis(const Anatomy& anatomy, const Scene& scene, Discretisation& 
   out.pressure_frames = tent_frames(anatomy.coordinates, out.layout, false);
   std::vector<std::string> told_with_the_result;
   const bool heart_axes = axes_of(anatomy, scene, told_with_the_result) == scene::Axes::heart;
-  auto functions = tent_functions(*out.frames, monomials(scene), heart_axes);
+  const scene::Base base = scene.boundary.base;
+  auto functions = tent_functions(*out.frames, monomials(scene), heart_axes, base);
   std::shared_ptr<const polyaffine::FrameField> frames = out.frames;
   if (*scene.reduction.border_functions) {
     frames = std::make_shared<BorderFrames>(out.frames, segment_kinds(scene));
     functions.resize(frames->num_frames(), {{{0, 0, 0}, {0, 0, 1}, {0, 0, 2}}, heart_axes});
   }
+  if (base != scene::Base::clamped) {
+    frames = std::make_shared<GlobalFrame>(frames, anatomy.coordinates, out.layout.length);
+    functions.push_back({{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, false});
+    if (heart_axes) functions.back().monomials.push_back({0, 0, 0});
+  }
   out.frame_basis = std::make_shared<polyaffine::FrameBasis>(frames, functions);
+  if (base == scene::Base::sliding) hold_base(anatomy, out);
 }
 
 // Zero on the base, one below the basal ring, with a continuous slope; at the nodes of the geometry.
@@ -149,7 +173,7 @@ Discretisation reduced_discretisation(const Anatomy& anatomy, const Scene& scene
   const bool sigmoid = scene.reduction.weights == scene::Weights::sigmoid;
   (sigmoid ? add_sigmoid_basis : add_tent_basis)(anatomy, scene, out);
   out.basis = out.frame_basis;
-  out.num_unknowns = 3 * out.basis->num_functions();
+  out.num_unknowns = 3 * out.basis->num_functions() - static_cast<int>(out.held.size());
   out.fixed.assign(out.num_unknowns, 0);
 
   add_reduced_points(anatomy, scene, out);

@@ -46,7 +46,7 @@ WallPoints subset(const WallPoints& points, const std::vector<int>& which) {
   return out;
 }
 
-// The surfaces of a discretisation that have points.
+// The surfaces of a discretisation that have points and run along the wall: the base runs across it.
 std::vector<SurfacePoints*> surfaces(Discretisation& d) {
   std::vector<SurfacePoints*> out;
   for (CavitySurface& cavity : d.cavities) out.push_back(&cavity.points);
@@ -65,6 +65,14 @@ void set_surface_points_of_tents(const SegmentCells& cells, const PointCounts& c
     *points = polyaffine::gauss_surface_cells(*points, own.cell, own.place.topRows<2>(), cells, counts_of,
                                               counts.exact[0], geometry);
   }
+}
+
+// Few points of the faces of the base, between the kinks around the wall.
+void set_base_points(const SegmentCells& cells, const PointCounts& counts, Discretisation& out) {
+  if (out.base_points.tet.empty()) return;
+  const CandidateCells own = cells_of_tents(cells, out.base_points.tet, out.base_points.barycentric);
+  out.base_points = polyaffine::compress_surface_cells(out.base_points, own.cell, own.place.bottomRows<2>(),
+                                                       counts.exact[0]);
 }
 
 WallPoints wall_points_of_tents(const SegmentCells& cells, const PointCounts& counts,
@@ -125,6 +133,7 @@ void add_reduced_points(const Anatomy& anatomy, const Scene& scene, Discretisati
     out.points = wall_points_of_tents(cells, counts, candidates.wall, all_points);
     add_surface_points(anatomy, scene, heart.space(), candidates.face, out);
     set_surface_points_of_tents(cells, counts, heart.space(), out);
+    set_base_points(cells, counts, out);
   }
 }
 

@@ -147,13 +147,32 @@ struct Circulation {
   std::shared_ptr<const CirculationNetwork> network{};    ///< of the loops network and svzerod
 };
 
-enum class Base { clamped };
+enum class Base { clamped, elastic, sliding };
 enum class SupportDirections { normal, all };
+enum class HeightLaw { linear, smooth };
 struct Boundary {
   Base base = Base::clamped;
+  double base_normal_stiffness_kPa_per_mm = 0.1;  ///< from here on per reference area of an elastic base
+  double base_normal_damping_kPa_ms_per_mm = 5;
+  double base_inplane_stiffness_kPa_per_mm = 0.1;
+  double base_inplane_damping_kPa_ms_per_mm = 5;
   double epicardial_stiffness_kPa_per_mm = 0;                           ///< 0: none
   double epicardial_damping_kPa_ms_per_mm = 0;                          ///< 0: none
   SupportDirections epicardial_directions = SupportDirections::normal;  ///< of the reference surface
+  double epicardial_apex_weight = 1, epicardial_base_weight = 1;  ///< factors by height along the long axis
+  HeightLaw epicardial_weight_law = HeightLaw::linear;            ///< between them
+  std::optional<std::string> epicardial_weight_array;             ///< of the mesh file's points; absent: 1
+
+  bool base_moves() const { return base != Base::clamped; }
+  /// Do springs or dashpots act on the epicardium, or on the base?
+  bool holds_epicardium() const {
+    return epicardial_stiffness_kPa_per_mm > 0 || epicardial_damping_kPa_ms_per_mm > 0;
+  }
+  bool holds_base() const {
+    return base == Base::elastic &&
+           (base_normal_stiffness_kPa_per_mm > 0 || base_normal_damping_kPa_ms_per_mm > 0 ||
+            base_inplane_stiffness_kPa_per_mm > 0 || base_inplane_damping_kPa_ms_per_mm > 0);
+  }
 };
 
 struct Time {

@@ -80,6 +80,9 @@ std::string rule_key(const Anatomy& anatomy, const Scene& scene) {
   key["circulation"] = scene.circulation.has_value();
   const scene::Boundary& b = scene.boundary;
   key["boundary"] = {b.base, b.epicardial_stiffness_kPa_per_mm, b.epicardial_directions};
+  if (b.epicardial_apex_weight != 1 || b.epicardial_base_weight != 1)
+    key["epicardial_weight"] = {b.epicardial_apex_weight, b.epicardial_base_weight, b.epicardial_weight_law};
+  if (b.epicardial_weight_array) key["epicardial_weight_array"] = *b.epicardial_weight_array;
   return polyaffine::digest(anatomy.mesh) + ' ' + key.dump();
 }
 
