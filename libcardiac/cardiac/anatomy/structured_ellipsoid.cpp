@@ -18,10 +18,18 @@ struct Place {
   double s, psi, t;
 };
 
-Vec3 position(const TruncatedEllipsoid& shape, const Place& at) {
+// A shape whose base need not be plane.
+struct Wall {
+  TruncatedEllipsoid shape;
+  double epi_base_z_mm;
+};
+
+Vec3 position(const Wall& wall, const Place& at) {
+  const TruncatedEllipsoid& shape = wall.shape;
   const double r_s = shape.endo_short_mm + at.t * (shape.epi_short_mm - shape.endo_short_mm);
   const double r_l = shape.endo_long_mm + at.t * (shape.epi_long_mm - shape.endo_long_mm);
-  const double theta = at.s * std::acos(-shape.base_z_mm / r_l);
+  const double base_z = shape.base_z_mm + at.t * (wall.epi_base_z_mm - shape.base_z_mm);
+  const double theta = at.s * std::acos(-base_z / r_l);
   return {r_s * std::sin(theta) * std::cos(at.psi), r_s * std::sin(theta) * std::sin(at.psi),
           -r_l * std::cos(theta)};
 }
@@ -66,7 +74,9 @@ std::vector<std::array<int, 3>> surface_triangles(const StructuredCells& cells) 
 
 }  // namespace
 
-CurvedMesh structured_ellipsoid(const TruncatedEllipsoid& shape, const StructuredCells& cells) {
+CurvedMesh structured_ellipsoid(const TruncatedEllipsoid& shape, const StructuredCells& cells,
+                                std::optional<double> epi_base_z_mm) {
+  const Wall wall{shape, epi_base_z_mm.value_or(shape.base_z_mm)};
   check_shape(shape);
   check_cells(cells);
   const int layer = 1 + cells.longitudinal * cells.around;
@@ -80,7 +90,7 @@ CurvedMesh structured_ellipsoid(const TruncatedEllipsoid& shape, const Structure
             {static_cast<double>(i) / cells.longitudinal, 2 * polyaffine::kPi * j / cells.around, t});
   }
   Points points(3, static_cast<Eigen::Index>(places.size()));
-  for (Eigen::Index p = 0; p < points.cols(); ++p) points.col(p) = position(shape, places[p]);
+  for (Eigen::Index p = 0; p < points.cols(); ++p) points.col(p) = position(wall, places[p]);
 
   std::vector<Eigen::Vector4i> tets;
   std::vector<std::pair<Eigen::Vector3i, int>> faces;
@@ -114,7 +124,7 @@ CurvedMesh structured_ellipsoid(const TruncatedEllipsoid& shape, const Structure
     for (int a = 0; a < 4; ++a)
       for (int b = 0; b < 4; ++b)
         if (const int p = all(a, t), q = all(b, t); p < q)
-          out.midpoints.try_emplace({p, q}, position(shape, middle(places[p], places[q])));
+          out.midpoints.try_emplace({p, q}, position(wall, middle(places[p], places[q])));
   return out;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include <cardiac/anatomy/idealised.hpp>
 #include <polyaffine/mesh/curved_edges.hpp>
 
@@ -22,6 +24,9 @@ struct StructuredCells {
 /// (Dompierre et al. 1999), all edges bent along the parameter lines. It follows the wall with far fewer
 /// elements than an unstructured mesh can, labels as in idealised.hpp. Throws InputError for a wrong shape,
 /// fewer than 2 cells from apex to base, an odd number or fewer than 4 around, or none through the wall.
-CurvedMesh structured_ellipsoid(const TruncatedEllipsoid& shape, const StructuredCells& cells);
+/// With `epi_base_z_mm` the base is no plane: its height goes linearly in t from shape.base_z_mm inside to
+/// that outside.
+CurvedMesh structured_ellipsoid(const TruncatedEllipsoid& shape, const StructuredCells& cells,
+                                std::optional<double> epi_base_z_mm = {});
 
 }  // namespace cardiac

@@ -1,6 +1,7 @@
 #include "cardiac/reduction/frame_functions.hpp"
 
 #include <cardiac/anatomy/segments.hpp>
+#include <cardiac/reduction/global_frame.hpp>
 
 namespace cardiac {
 namespace {
@@ -14,6 +15,9 @@ std::string monomial_name(const polyaffine::Monomial& m) {
 std::string frame_name(const Discretisation& d, int frame) {
   const FrameLayout& layout = d.layout;
   const int nodes = layout.num_nodes();
+  if (dynamic_cast<const GlobalFrame*>(&d.frame_basis->field()) &&
+      frame + 1 == d.frame_basis->field().num_frames())
+    return "whole heart";
   if (frame >= nodes) {
     const int base = d.frames && d.frames->base_frames() ? layout.rings.back().nodes : 0;
     return frame < nodes + base ? "base " + std::to_string(frame - nodes + 1)

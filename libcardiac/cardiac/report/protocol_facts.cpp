@@ -32,6 +32,14 @@ std::string base_sentence(const Json& protocol) {
     return "The base is clamped: the valve plane neither moves nor turns, and all shortening draws the apex "
            "up. "
            "In healthy adults the valve plane itself moves by 12 to 15 mm.";
+  if (base == "sliding")
+    return "The base slides in its plane and does not move along its normal (boundary.base = sliding); the "
+           "apex "
+           "is drawn up.";
+  if (base == "elastic")
+    return "Springs and dashpots hold the base, which moves (boundary.base = elastic); the pressure on the "
+           "closed "
+           "valves is borne by their rings.";
   return "The base is held by boundary.base = " + base.get<std::string>() + ".";
 }
 

@@ -137,7 +137,7 @@ bool run_beat(const CoupledHeart& heart, polyaffine::LinearSystem& linear, const
   path.beat_start_ms = begin;
   path.steps = {heart.unpack(0, y)};
   path.outputs = path.steps;
-  polyaffine::DaeIntegrator ida(heart.system, linear, dae_options(scene.time), begin, y, rate);
+  polyaffine::DaeIntegrator ida(heart.system, linear, dae_options(scene), begin, y, rate);
   BeatInstants instants(heart, begin, onset_ms, y, path);
   const int stores = heart.circulation->num_stores();
   CycleBeat cycle{heart.states(y).head(stores), {}, 0};

@@ -208,7 +208,7 @@ class WallInTime {
 
  private:
   void begin(Vector y, Vector rate) {
-    ida_.emplace(system_, dae_options(scene_.time), 0, y, rate);
+    ida_.emplace(system_, dae_options(scene_), 0, y, rate);
     start_ = std::move(y);
     if (!ventricle_.contraction) return;
     const TensionCurve& curve = ventricle_.contraction->curve;

@@ -25,8 +25,11 @@ void warn_of_instability(const polyaffine::LoadReport& report, const std::string
                           "may be other solutions");
 }
 
-polyaffine::DaeOptions dae_options(const scene::Time& time) {
-  return {.relative_tolerance = time.relative_tolerance, .max_step = time.max_step_ms};
+polyaffine::DaeOptions dae_options(const Scene& scene) {
+  polyaffine::DaeOptions out{.relative_tolerance = scene.time.relative_tolerance,
+                             .max_step = scene.time.max_step_ms};
+  if (scene.tissue.density_mg_per_mm3 > 0) out.max_order = kMaxOrderOfWaves;
+  return out;
 }
 
 int most_steps(const scene::Time& time, double span_ms) {

@@ -16,8 +16,11 @@ std::string why_it_stopped(const polyaffine::LoadReport& report, const RunContro
 /// Warns in the path when the equilibrium of a load is not stable.
 void warn_of_instability(const polyaffine::LoadReport& report, const std::string& load, HeartPath& path);
 
+/// Highest order of BDF with inertia: beyond it the method is not stable for waves that little damps.
+inline constexpr int kMaxOrderOfWaves = 2;
+
 /// The integration that a scene asks for.
-polyaffine::DaeOptions dae_options(const scene::Time& time);
+polyaffine::DaeOptions dae_options(const Scene& scene);
 
 /// Time steps of `span_ms`, some ten times as many as one needs.
 int most_steps(const scene::Time& time, double span_ms);

@@ -1,6 +1,7 @@
 #include <cardiac/validation/biventricle.hpp>
 #include <cardiac/validation/circulation.hpp>
 #include <cardiac/validation/cube.hpp>
+#include <cardiac/validation/elastodynamics.hpp>
 #include <cardiac/validation/ellipsoid.hpp>
 #include <cardiac/validation/extreme.hpp>
 #include <cardiac/validation/land.hpp>
@@ -19,6 +20,10 @@ const std::vector<ValidationCase>& validation_cases() {
       {"circulation", "windkessel and closed loop without a wall, published numbers", validate_circulation},
       {"biventricle", "two ventricles, reduced against full order, and a beat in the closed loop",
        validate_biventricle},
+      {"elastodynamics",
+       "the benchmark of Aróstica et al. 2025 with inertia, pericardium and a moving base, full order and "
+       "reduced",
+       validate_elastodynamics},
       {"tuned", "a tuned model under 30 other protocols: its errors, and those that it tells of itself",
        validate_tuned},
       {"extreme", "stiff and extreme scenes, reduced and full order: within bounds or stopped with a reason",

@@ -46,6 +46,10 @@ struct ValidationContext {
   /// Unstructured tets of the box [0, size], the six faces labelled 1 to 6: x = 0, x = size, y = 0, …
   std::function<polyaffine::TetMesh(const polyaffine::Vec3& size_mm, double edge_mm)> mesh_box;
   std::function<polyaffine::TetMesh(const IdealisedBiventricle& shape, double size_mm)> mesh_biventricle;
+  std::filesystem::path hearts;  ///< folder with the meshes of other origin that some cases compute
+  bool named = false;            ///< the case was asked for by its name
+  /// Told why a case was left out, whose files are absent, unless it is named.
+  std::function<void(const std::string& why)> left_out = [](const auto&) {};
   /// May be called from several threads at once.
   std::function<void(const std::string& what, double fraction)> progress = [](const auto&, double) {};
 };

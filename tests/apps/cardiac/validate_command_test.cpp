@@ -36,4 +36,13 @@ TEST(ValidateCommand, WrongInputIsStatusTwo) {
   EXPECT_THAT(run.err, HasSubstr("CASE/QUANTITY=LOW:HIGH"));
 }
 
+TEST(ValidateCommand, AbsentMeshesAreNamed) {
+  const TemporaryFolder folder;
+  const auto run = run_program("validate elastodynamics --quick --hearts " + folder.path.string() +
+                               " --out " + folder.path.string());
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, HasSubstr("data/arostica2025/lv_surface.vtu: not found"));
+  EXPECT_THAT(run.err, HasSubstr("--hearts"));
+}
+
 }  // namespace

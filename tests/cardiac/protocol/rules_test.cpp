@@ -90,6 +90,29 @@ TEST(Rules, KeysOfTwoVentriclesPlayNoPartWithOne) {
   EXPECT_THAT(two[0], AllOf(HasSubstr(veins), HasSubstr("it goes with anatomy.scheme = aha17")));
 }
 
+TEST(Rules, BaseThatMovesMustBeHeldAndKnown) {
+  const std::vector<std::string> loose{"boundary.base=elastic", "boundary.base_normal_stiffness_kPa_per_mm=0",
+                                       "boundary.base_inplane_stiffness_kPa_per_mm=0"};
+  EXPECT_THAT(refusal(kPassive, loose), AllOf(HasSubstr("boundary.base_normal_stiffness_kPa_per_mm"),
+                                              HasSubstr("nothing holds the heart"), HasSubstr("kPa/mm")));
+  auto held = loose;
+  held.emplace_back("boundary.epicardial_stiffness_kPa_per_mm=0.1");
+  EXPECT_NO_THROW(parsed(kPassive, held));
+  for (const char* base : {"elastic", "sliding"}) {
+    const std::string moves = std::string("boundary.base=") + base;
+    EXPECT_NO_THROW(parsed(kPassive, {moves}));
+    EXPECT_THAT(refusal(kPassive, {moves, "reduction.weights=sigmoid"}),
+                AllOf(HasSubstr("reduction.weights"), HasSubstr(base)));
+    EXPECT_THAT(refusal(kPassive, {moves, "reduction.preset=tuned"}), HasSubstr("reduction.preset"));
+    EXPECT_THAT(refusal(kPassive, {moves, "reduction.integration=trained"}),
+                HasSubstr("reduction.integration"));
+  }
+  // Springs of an elastic base alone, and weights of a pericardium that is there.
+  EXPECT_THAT(parsed(kPassive, {"boundary.base_normal_stiffness_kPa_per_mm=1"}).warnings, SizeIs(1));
+  EXPECT_THAT(parsed(kPassive, {"boundary.epicardial_apex_weight=0.5"}).warnings, SizeIs(1));
+  EXPECT_THAT(refusal(kPassive, {"boundary.epicardial_weight_array=stiff"}), HasSubstr("mesh.file"));
+}
+
 TEST(Rules, PartsThatNeedOthers) {
   const std::string shape = "[mesh]\nshape = \"human_lv\"\n";
   const std::string soft = "[tissue]\nlaw = \"neo_hookean\"\n";
