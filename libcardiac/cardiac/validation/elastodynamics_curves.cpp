@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include <cardiac/report/axes.hpp>
-#include <cardiac/report/csv_reader.hpp>
+#include <cardiac/core/csv_reader.hpp>
 #include <cardiac/report/csv_writer.hpp>
 #include <cardiac/report/text.hpp>
 
