@@ -22,8 +22,6 @@ class CirculationModel {
     int pressures = 0, volumes = 0, flows = 0;
   };
   virtual Kinds kinds() const { return {num_states() - num_cavities(), 0, 0}; }
-  /// The states that hold blood: all but the flows, which are the last ones.
-  int num_stores() const { return num_states() - kinds().flows; }
 
   struct Rates {
     polyaffine::Vector values;        ///< f, a unit of the states per ms

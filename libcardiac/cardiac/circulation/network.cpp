@@ -85,6 +85,13 @@ std::optional<NetworkFault> fault_of_element(const CirculationNetwork& network, 
   if (!(R > 0) && !e.curve && (e.type == ElementType::valve || !(L > 0)))
     return fault("resistance_mmHg_s_per_mL",
                  "missing; expected the resistance of " + quoted(e.name) + ", above 0 mmHg·s/mL");
+  if (!e.between.empty()) {
+    const bool taken =
+        std::ranges::find(network.compartments, e.between, &Compartment::name) != network.compartments.end();
+    if (!is_word(e.between) || taken)
+      return fault("between", "found " + quoted(e.between) + ", expected a name of letters, digits and " +
+                                  "underscores that no compartment has");
+  }
   if (e.type != ElementType::valve) return {};
   const bool tight = !std::isfinite(e.valve.leak_kPa_ms_per_mm3);
   if (tight && (L > 0 || e.valve.law != ValveLaw::smooth))

@@ -52,6 +52,11 @@ std::vector<ActivationSite> sites(const Anatomy& anatomy, const scene::Activatio
 Vector vertex_activation(const Anatomy& anatomy, const Scene& scene) {
   const auto& a = *scene.activation;
   if (a.map) return mapped_times(anatomy.mesh, *a.map);
+  if (a.mode == scene::ActivationMode::array || a.mode == scene::ActivationMode::table)
+    throw polyaffine::InputError(
+        "activation.mode: found an array or table whose times were not read (a heart without its mesh "
+        "file?), "
+        "expected a run from its protocol and mesh");
   if (a.mode == scene::ActivationMode::uniform)
     return Vector::Constant(anatomy.mesh.num_points(), a.onset_ms);
   return activation_times(anatomy.mesh, tet_fibres(anatomy, *scene.fibres),

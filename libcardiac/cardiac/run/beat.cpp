@@ -56,6 +56,12 @@ bool fill(const Ventricle& ventricle, const Vector& pressures_kPa, const Vector&
   return false;
 }
 
+// Of the states those that may take beats to settle: volumes of the cavities and pressures of vessels.
+// Chambers and flows follow them within a beat.
+int num_slow(const CirculationModel& circulation) {
+  return circulation.num_cavities() + circulation.kinds().pressures;
+}
+
 double stroke_volume(const std::vector<HeartState>& steps) {
   const auto volume = [](const HeartState& s) { return s.volumes_mm3[0]; };
   const auto [low, high] = std::ranges::minmax_element(steps, {}, volume);
@@ -84,6 +90,13 @@ bool closed(const HeartPath& path, const CirculationModel& circulation, const Sc
          distance_percent(path, circulation, scene) <= tolerance_percent;
 }
 
+// Whether beats come no nearer. Each chamber of a network takes a beat more to follow its vessels.
+bool ends_in_noise(const HeartPath& path, const CirculationModel& circulation) {
+  constexpr int kFirst = 4;
+  return path.beats > kFirst + circulation.kinds().volumes &&
+         is_noise(path.cycle, circulation.num_cavities());
+}
+
 std::string unclosed_warning(const HeartPath& path, const CirculationModel& circulation, const Scene& scene) {
   const scene::Time& time = scene.time;
   std::ostringstream out;
@@ -95,7 +108,7 @@ std::string unclosed_warning(const HeartPath& path, const CirculationModel& circ
         << " % from the one that would repeat itself; ";
   else
     out << "one beat does not tell how far it is from the one that would repeat itself; ";
-  if (is_noise(path.cycle, circulation.num_cavities()))
+  if (ends_in_noise(path, circulation))
     out << "from beat to beat this is noise of the time integration and comes no nearer: lower "
            "time.relative_tolerance ("
         << time.relative_tolerance << "), time.absolute_tolerance_mm (" << time.absolute_tolerance_mm
@@ -110,18 +123,13 @@ void extrapolate(const CoupledHeart& heart, polyaffine::LinearSystem& linear, do
                  Vector& y, Vector& rate) {
   const CycleEstimate limit = estimate_limit_cycle(path.cycle, heart.num_cavities());
   if (!limit.extrapolated) return;
-  const int pressures = heart.circulation->kinds().pressures;
-  if (heart.circulation->is_closed() && pressures == 0) return;  // nothing that could hold what is missing
-  Vector wanted = limit.stores;
-  const polyaffine::Unknowns stores{heart.vessels.first, static_cast<int>(wanted.size())};
+  Vector wanted = limit.pressures_kPa;
+  const polyaffine::Unknowns vessels{heart.vessels.first, static_cast<int>(wanted.size())};
   if (heart.circulation->is_closed()) {
-    const Vector compliances = heart.circulation->compliances().segment(heart.num_cavities(), pressures);
-    const Vector missing = stores.of(y) - wanted;
-    wanted.head(pressures).array() +=
-        (compliances.dot(missing.head(pressures)) + missing.tail(wanted.size() - pressures).sum()) /
-        compliances.sum();
+    const Vector compliances = heart.circulation->compliances().segment(heart.num_cavities(), wanted.size());
+    wanted.array() += compliances.dot(vessels.of(y) - wanted) / compliances.sum();
   }
-  stores.of(y) = wanted;
+  vessels.of(y) = wanted;
   add_cost(make_consistent(heart, linear, t, y, rate), path.cost);
 }
 
@@ -139,8 +147,8 @@ bool run_beat(const CoupledHeart& heart, polyaffine::LinearSystem& linear, const
   path.outputs = path.steps;
   polyaffine::DaeIntegrator ida(heart.system, linear, dae_options(scene), begin, y, rate);
   BeatInstants instants(heart, begin, onset_ms, y, path);
-  const int stores = heart.circulation->num_stores();
-  CycleBeat cycle{heart.states(y).head(stores), {}, 0};
+  const int slow = num_slow(*heart.circulation);
+  CycleBeat cycle{heart.states(y).head(slow), {}, 0};
   std::string stop;
   while (stop.empty() && ida.time() < end - 1e-9 * period) {
     const double from = ida.time();
@@ -178,7 +186,7 @@ bool run_beat(const CoupledHeart& heart, polyaffine::LinearSystem& linear, const
   path.cost.convergence_failures += counters.convergence_failures;
   add_cost(ida.cost(), path.cost);
   if (stop.empty()) {
-    cycle.end = heart.states(y).head(stores);
+    cycle.end = heart.states(y).head(slow);
     cycle.stroke_mm3 = stroke_volume(path.steps);
     path.stroke_volumes_mm3.push_back(cycle.stroke_mm3);
     path.cycle.push_back(std::move(cycle));
@@ -211,10 +219,10 @@ void take_up(const Checkpoint& from, const CoupledHeart& heart, Vector& y, Vecto
     throw polyaffine::InputError("the checkpoint holds " + std::to_string(from.y.size()) +
                                  " unknowns, expected " + std::to_string(heart.system.size()));
   for (const CycleBeat& beat : from.cycle)
-    if (beat.start.size() != heart.circulation->num_stores())
+    if (beat.start.size() != num_slow(*heart.circulation))
       throw polyaffine::InputError("the checkpoint's beats hold " + std::to_string(beat.start.size()) +
                                    " states of the circulation, expected " +
-                                   std::to_string(heart.circulation->num_stores()));
+                                   std::to_string(num_slow(*heart.circulation)));
   y = from.y;
   rate = from.rate;
   path.beats = from.beats;
@@ -247,7 +255,6 @@ HeartPath run_beats(const Ventricle& ventricle, const Scene& scene, const RunCon
       couple(ventricle, circulation_model(ventricle.cavities.size() > 1, scene), scene.time);
   // One for all beats: its analysis takes as long as some steps.
   const auto linear = heart.system.make_linear();
-  const int cavities = heart.num_cavities();
   HeartPath path;
   ++path.built["circulation"];
   Vector y, rate;
@@ -262,7 +269,8 @@ HeartPath run_beats(const Ventricle& ventricle, const Scene& scene, const RunCon
     if (!going_on) break;
     ++path.beats;
     is_closed = closed(path, *heart.circulation, scene);
-    path.completed = is_closed || path.beats == scene.time.max_beats || is_noise(path.cycle, cavities);
+    path.completed =
+        is_closed || path.beats == scene.time.max_beats || ends_in_noise(path, *heart.circulation);
     if (!path.completed) extrapolate(heart, *linear, path.simulated_ms, path, y, rate);
   }
   if (path.completed && !is_closed)

@@ -17,7 +17,7 @@ constexpr double kLargestChange = 0.5;  // of a pressure, in an estimate
 constexpr double kNoiseShare = 0.01;    // of the largest singular value
 constexpr double kUnexplained = 10;     // what counts a difference that the beats so far do not explain
 constexpr int kNoiseBeats = 3;
-constexpr int kFewStores = 3;
+constexpr int kFewVessels = 3;
 constexpr int kSpareBeats = 3;  // among which those that differ most are chosen
 
 // A beat's residual in parts of the pressures.
@@ -77,7 +77,7 @@ CycleEstimate estimate_limit_cycle(const std::vector<CycleBeat>& beats, int volu
   const double of_stroke = std::max(std::abs(stroke - last.stroke_mm3),
                                     (volume - last.start.head(volumes)).cwiseAbs().maxCoeff()) /
                            std::abs(last.stroke_mm3);
-  out.stores = limit.cwiseProduct(size);
+  out.pressures_kPa = limit.cwiseProduct(size);
   const double unexplained = kUnexplained * (g - dg * theta).cwiseAbs().maxCoeff();
   out.distance_percent = 100 * (std::max(away.cwiseAbs().maxCoeff(), of_stroke) + unexplained);
   out.extrapolated = true;
@@ -86,9 +86,8 @@ CycleEstimate estimate_limit_cycle(const std::vector<CycleBeat>& beats, int volu
 
 bool is_noise(const std::vector<CycleBeat>& beats, int volumes) {
   const auto count = std::ssize(beats);
-  const auto stores = beats.front().start.size() - volumes;
-  // Of many stores the first beats tell little: extrapolations from them lead about.
-  if (stores == 0 || count <= kNoiseBeats + std::max<std::ptrdiff_t>(1, stores - kFewStores)) return false;
+  const auto vessels = beats.front().start.size() - volumes;
+  if (vessels == 0 || count <= kNoiseBeats + std::max<std::ptrdiff_t>(1, vessels - kFewVessels)) return false;
   double before = INFINITY, lately = INFINITY;
   bool turns = false;
   for (std::ptrdiff_t n = 0; n < count; ++n) {

@@ -6,8 +6,8 @@
 
 namespace cardiac {
 
-/// One beat as a map of what the circulation holds (CirculationModel: volumes of the cavities in mm³, then
-/// pressures of the vessels in kPa and volumes of chambers) from its beginning to its end.
+/// One beat as a map of the circulation's slow states (CirculationModel: volumes of the cavities in mm³, then
+/// pressures of the vessels in kPa) from its beginning to its end.
 struct CycleBeat {
   polyaffine::Vector start, end;
   double stroke_mm3 = 0;
@@ -15,7 +15,7 @@ struct CycleBeat {
 
 /// What the beats so far tell of the one that would repeat itself.
 struct CycleEstimate {
-  polyaffine::Vector stores;  ///< pressures and volumes behind the cavities' when the limit beat begins
+  polyaffine::Vector pressures_kPa;  ///< of the vessels when the limit beat begins
   /// Of the last beat: the largest of its distances from the limit, of pressures (in parts of themselves),
   /// volumes at its beginning and stroke volume (in parts of the stroke volume).
   double distance_percent = 0;
@@ -35,7 +35,8 @@ struct CycleEstimate {
 CycleEstimate estimate_limit_cycle(const std::vector<CycleBeat>& beats, int volumes);
 
 /// Whether the beats come no nearer and what is left changes its direction: none of the last three residuals
-/// is below half of the smallest before, and one of them points against its forerunner.
+/// is below half of the smallest before, and one of them points against its forerunner. Of more than four
+/// vessels a beat more for each is waited for: the first extrapolations lead about.
 bool is_noise(const std::vector<CycleBeat>& beats, int volumes);
 
 }  // namespace cardiac

@@ -281,6 +281,7 @@ TEST(Network, TellsWhatIsWrongWithIt) {
                 n.elements.push_back(element("ab", "a", "b", 1));
               }),
               HasSubstr("\"a\" is not connected with \"veins\""));
+  EXPECT_THAT(text([](auto& n) { n.elements[1].between = "aorta"; }), HasSubstr("that no compartment has"));
   CirculationNetwork wrong = everything();
   wrong.elements[0].from = "nowhere";
   EXPECT_THROW(NetworkCirculation(wrong, 800), std::invalid_argument);

@@ -71,6 +71,20 @@ TEST(NetworkTables, AreToldAsTheyWereGiven) {
   EXPECT_THAT(explain("circulation.element.stenosis_mmHg_s2_per_mL2"), HasSubstr("0.0004/A²"));
 }
 
+TEST(NetworkTables, PumpsHaveAHeadOrAFlow) {
+  const std::string pump =
+      kNetwork +
+      element("assist", "lv", "arteries", "type = \"pump\"\nresistance_mmHg_s_per_mL = 1\nhead_mmHg = 120");
+  const Element& head = parsed(pump).circulation->network->elements.at(3);
+  EXPECT_EQ(head.type, ElementType::pump);
+  EXPECT_NEAR(head.head_kPa, 120 * kPa_per_mmHg, 1e-12);
+  EXPECT_FALSE(head.curve);
+  const Protocol given = parsed(pump, {"circulation.element.4.pump_flow_mL_per_s=50"});
+  EXPECT_NEAR(given.circulation->network->elements.at(3).curve->at(123), 50, 1e-12);  // mL/s are mm³/ms
+  EXPECT_THAT(parsed(kNetwork, {"circulation.element.3.head_mmHg=5"}).warnings.at(0),
+              HasSubstr("it goes with circulation.element.type = pump"));
+}
+
 TEST(NetworkTables, EntriesAreOverriddenByTheirNumber) {
   const Protocol protocol = parsed(kNetwork, {"circulation.compartment.3.pressure_mmHg=80"});
   EXPECT_NEAR(protocol.circulation->network->compartments[2].pressure_kPa, 80 * kPa_per_mmHg, 1e-12);

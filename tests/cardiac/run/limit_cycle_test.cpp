@@ -35,7 +35,7 @@ TEST(LimitCycle, OneVesselIsFoundFromTwoBeats) {
     const auto beats = beats_of(Matrix::Constant(1, 1, ratio), limit, Vector::Constant(1, 9.0), 2);
     const CycleEstimate estimate = estimate_limit_cycle(beats, 1);
     EXPECT_TRUE(estimate.extrapolated);
-    EXPECT_NEAR(estimate.stores[0], 12, 1e-9);
+    EXPECT_NEAR(estimate.pressures_kPa[0], 12, 1e-9);
     // The last beat began at 12 − 3·ratio; two beats differ by (1 − ratio) of that.
     const double away = 3 * ratio, strokes = away / (70 + away), pressures = away / beats.back().end[1];
     EXPECT_NEAR(estimate.distance_percent, 100 * std::max(strokes, pressures), 1e-9);
@@ -72,7 +72,7 @@ TEST(LimitCycle, BeatsThatBeginWithTheEstimateComeThereFast) {
     if (n > 0) {
       EXPECT_LT(left, 2 * told + 1e-12) << n;
     }
-    x = estimate.stores;
+    x = estimate.pressures_kPa;
   }
   EXPECT_LT(left, 1e-3);  // 3/12 · 0.92⁷ = 0.14 without
 }
@@ -84,7 +84,7 @@ TEST(LimitCycle, AnEstimateFarOffIsNotUsed) {
         beats_of(Matrix::Constant(1, 1, ratio), Vector::Constant(1, 12.0), Vector::Constant(1, begin), 2);
     const CycleEstimate estimate = estimate_limit_cycle(beats, 1);
     EXPECT_FALSE(estimate.extrapolated) << ratio;
-    EXPECT_EQ(estimate.stores[0], beats.back().end[1]) << ratio;
+    EXPECT_EQ(estimate.pressures_kPa[0], beats.back().end[1]) << ratio;
     EXPECT_GT(estimate.distance_percent, 1) << ratio;
   }
 }
@@ -103,14 +103,14 @@ TEST(LimitCycle, NoiseIsToldFromSlowness) {
   EXPECT_EQ(noisy_from(0.97, 0), 0);
 }
 
-// Residuals that only change their sign are noise, but of many stores not before the extrapolation had beats
+// Residuals that only change their sign are noise, but of many vessels not before the extrapolation had beats
 // enough to learn from.
-TEST(LimitCycle, FewBeatsOfManyStoresAreNoNoise) {
-  const auto noisy_from = [](int stores) {
+TEST(LimitCycle, FewBeatsOfManyVesselsAreNoNoise) {
+  const auto noisy_from = [](int vessels) {
     std::vector<CycleBeat> beats;
     for (int n = 1; n <= 30; ++n) {
-      const Vector start = Vector::Constant(1 + stores, 10);
-      beats.push_back({start, start + Vector::Constant(1 + stores, n % 2 == 0 ? 0.01 : -0.01), 70});
+      const Vector start = Vector::Constant(1 + vessels, 10);
+      beats.push_back({start, start + Vector::Constant(1 + vessels, n % 2 == 0 ? 0.01 : -0.01), 70});
       if (is_noise(beats, 1)) return n;
     }
     return 0;

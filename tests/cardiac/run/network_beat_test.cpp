@@ -88,6 +88,23 @@ TEST(NetworkBeat, InTheClosedLoopOf2022KeepsItsBlood) {
   EXPECT_EQ(outcome.result.balances.size(), 4U);
 }
 
+TEST(NetworkBeat, InTheClosedLoopOf2022ComesToItsLimit) {
+  Scene scene = beating();
+  scene.circulation->loop = scene::Loop::closed_2022;
+  const Outcome outcome = simulate(scene);
+  ASSERT_TRUE(outcome.result.completed) << outcome.result.stop_reason;
+  EXPECT_LT(outcome.path.beats, scene.time.max_beats);
+  for (const std::string& warning : outcome.result.warnings)
+    EXPECT_EQ(warning.find("did not close"), std::string::npos) << warning;
+  // What flows into the ventricle flows through every vessel.
+  const double output = lv(outcome).haemodynamics->cardiac_output_L_per_min * 1000 / 60;
+  EXPECT_GT(output, 50);
+  for (const FlowBalance& b : outcome.result.balances) {
+    EXPECT_NEAR(b.mean_outflow_mL_per_s, output, 0.03 * output) << b.name;
+    EXPECT_NEAR(b.error_percent, 0, 2) << b.name;
+  }
+}
+
 TEST(NetworkBeat, ALeakOfTheMitralValveComesBack) {
   Scene scene = beating();
   scene.circulation->mitral_leak_resistance_kPa_ms_per_mm3 = 1.5 * resistance_per_mmHg_s_per_mL;
