@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include <polyaffine/core/error.hpp>
@@ -88,7 +89,8 @@ struct RigidMotions {
 std::string text(const Vec3& v) {
   std::ostringstream out;
   out.precision(2);
-  out << '(' << v.x() << ", " << v.y() << ", " << v.z() << ')';
+  const auto rounded = [](double x) { return std::round(100 * x) / 100 + 0.0; };  // no −0
+  out << '(' << rounded(v.x()) << ", " << rounded(v.y()) << ", " << rounded(v.z()) << ')';
   return out.str();
 }
 

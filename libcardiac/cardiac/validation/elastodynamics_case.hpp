@@ -44,10 +44,15 @@ struct ElastodynamicsCase {
   std::string mesh, surface;  ///< files of data/arostica2025
   std::string envelope;       ///< of the groups' curves, a file beside them
   bool two_ventricles = false;
-  std::vector<BenchmarkPressure> pressures;  ///< of the cavities; empty: no pressure
+  std::vector<BenchmarkPressure> pressures{};  ///< of the cavities; empty: no pressure
   double base_stiffness_kPa_per_mm = 0.1;
-  int element_order = 2;  ///< of full order; 1 where quadratic elements would take half an hour
-  std::vector<BenchmarkPoint> points;
+  int element_order = 2;     ///< of full order
+  double end_ms = 1000;      ///< of full order and of the model beside it
+  double slack_percent = 0;  ///< of the largest displacements, beyond the groups' range
+  double curve_excess_mm =
+      0.2;  ///< accepted of the curves beyond the range: twice what is reached, in relaxation
+  double reduced_percent = 10;  ///< accepted of the untrained reduced model against full order
+  std::vector<BenchmarkPoint> points{};
   double rest_volume_mL = 0;  ///< of the left cavity; 0: not told
   double least_volume_low_mL = 0, least_volume_high_mL = 0;
 };

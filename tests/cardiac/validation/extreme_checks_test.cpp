@@ -8,7 +8,7 @@ namespace cardiac {
 namespace {
 
 const ValidationContext context{
-    .quick = true, .out = {}, .mesh_ellipsoid = {}, .mesh_box = {}, .mesh_biventricle = {}};
+    .quick = true, .out = {}, .mesh_ellipsoid = {}, .mesh_box = {}, .mesh_biventricle = {}, .hearts = {}};
 
 ExtremeOutcome inflation(const ExtremeChecks& checks, const std::string& setting) {
   return checks.run("test", checks.coarse_wall(), kExtremePassive, {setting, "time.load_steps=2"});
