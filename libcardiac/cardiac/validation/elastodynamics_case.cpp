@@ -82,8 +82,7 @@ const std::vector<ElastodynamicsCase>& elastodynamics_cases() {
        .base_stiffness_kPa_per_mm = 1,
        .element_order = 1,
        .slack_percent = 20,
-       .curve_excess_mm = 5,
-       .reduced_percent = 30,
+       .curve_excess_mm = 4.5,
        .points = {{"p0", {25, 30, 0}, 7.95, 7.53, 8.92},
                   {"p1", {0, 30, 0}, 12.68, 10.93, 13.31},
                   {"p2", {25, 0, 72}, 15.09, 13.88, 16.08}}}};
