@@ -1,6 +1,8 @@
 #include <cardiac/bench/model.hpp>
 #include <cardiac/protocol/build_anatomy.hpp>
 #include <cardiac/run/build_ventricle.hpp>
+#include <cardiac/run/tuning_plan.hpp>
+#include <cardiac/scene/presets.hpp>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -40,6 +42,24 @@ FibreAxes wall_fibres(const BenchScene& scene, const HelixAngles& angles, Points
   return axes;
 }
 
+// The tuned model of a scene whose loads rise together. A tension that varies from place to place is learned
+// by its value on the axis.
+std::shared_ptr<const TunedModel> learned(const std::shared_ptr<const Anatomy>& anatomy,
+                                          const Protocol& protocol, const SceneLoad& end) {
+  TrainingLoad load;
+  load.pressures_kPa = polyaffine::Vector{{end.pressure_kPa}};
+  const Ventricle plain = build_ventricle(anatomy, protocol, protocol::Method::fem);
+  if (plain.contraction) {
+    const auto& curve = plain.contraction->curve;
+    load.clock_ms = curve.contraction_end_ms() + plain.contraction->delay_ms[0];
+    load.level = end.tension_kPa(Vec3::Zero()) / curve.peak_tension();
+  }
+  TuningControl control;
+  control.accuracy_percent = protocol.reduction.accuracy_percent;
+  control.budget_s = protocol.reduction.budget_s;
+  return std::make_shared<const TunedModel>(tune(anatomy, protocol, tuning_plan(load, plain), control));
+}
+
 // Solves are repeated until they took this long together, at most so often.
 constexpr double kLongEnough_s = 0.5;
 constexpr int kRepeats = 5;
@@ -59,7 +79,7 @@ polyaffine::LoadOptions load_options() {
 BenchModel::BenchModel(const BenchScene& scene, const CurvedMesh& mesh,
                        const std::vector<std::string>& settings) {
   const double start = polyaffine::processor_seconds();
-  const Protocol protocol = parse_protocol(scene.protocol, "scene " + scene.name, settings);
+  Protocol protocol = parse_protocol(scene.protocol, "scene " + scene.name, settings);
   reduction_ = protocol.reduction;
   ExactGeometry exact;
   exact.midpoints = mesh.midpoints;
@@ -72,6 +92,7 @@ BenchModel::BenchModel(const BenchScene& scene, const CurvedMesh& mesh,
       return wall_fibres(scene, angles, coordinates.space().positions(tet, barycentric));
     };
   const auto anatomy = std::make_shared<const Anatomy>(build_anatomy(mesh.mesh, protocol, exact));
+  if (is_tuned(protocol)) protocol.tuned = learned(anatomy, protocol, scene.path.front());
   ventricle_ = build_ventricle(anatomy, protocol, protocol.reduction.method);
   const auto& points = ventricle_.discretisation.points;
   const Points X = anatomy->coordinates->space().positions(points.tet, points.barycentric);

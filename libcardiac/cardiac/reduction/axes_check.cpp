@@ -64,6 +64,14 @@ Found found_on(bool two_ventricles, double misfit_deg) {
 
 }  // namespace
 
+std::string moving_base_warning(const Scene& scene) {
+  if (scene.boundary.base == scene::Base::clamped) return "";
+  return "boundary.base: where the base moves, a reduced model tells volumes and strain as it does "
+         "otherwise, "
+         "but where the heart lies as a whole may be a third of its displacement off full order; "
+         "--verify tells it of this heart";
+}
+
 std::string untrained_warning(const Anatomy& anatomy, const Scene& scene) {
   if (is_tuned(scene)) return "";
   const bool two = anatomy.coordinates->right() != nullptr;

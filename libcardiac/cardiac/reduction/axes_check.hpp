@@ -28,4 +28,8 @@ scene::Axes axes_of(const Anatomy& anatomy, const Scene& scene, std::vector<std:
 /// its radial_misfit_deg; of two ventricles that says little.
 std::string untrained_warning(const Anatomy& anatomy, const Scene& scene);
 
+/// What a reduced model gets wrong where the base moves, measured (docs/accuracy.md, "A base that moves");
+/// empty where it is clamped.
+std::string moving_base_warning(const Scene& scene);
+
 }  // namespace cardiac

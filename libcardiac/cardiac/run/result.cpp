@@ -130,8 +130,8 @@ BeatResult describe_path(const Ventricle& ventricle, const std::vector<ControlNo
   out.warnings = path.warnings;
   if (d.frames) {
     axes_of(anatomy, scene, out.warnings);
-    if (std::string text = untrained_warning(anatomy, scene); !text.empty())
-      out.warnings.push_back(std::move(text));
+    for (std::string text : {untrained_warning(anatomy, scene), moving_base_warning(scene)})
+      if (!text.empty()) out.warnings.push_back(std::move(text));
   }
   // A trained rule keeps forces and volumes; means over segments are those of all points.
   const Ventricle& told = ventricle.all_points ? *ventricle.all_points : ventricle;

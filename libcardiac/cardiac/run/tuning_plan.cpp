@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <sstream>
 
 #include <cardiac/run/key_states.hpp>
 #include <polyaffine/core/error.hpp>
@@ -15,6 +16,7 @@ constexpr int kInstants = 8;
 constexpr int kRandomLoads = 2;  // of each of two states, held out in a round
 constexpr const char* kFilled = "end diastole";
 constexpr const char* kEmptied = "end systole";
+constexpr const char* kNearTheEnd = "near the end";  // of a load that rises
 // Of a segment: a stiffness far enough to be seen beside the state, near enough to be linear, and the tension
 // of a scar. Two segments that the linear answers alone had taught were 10.7 % off where this makes 7.
 constexpr double kStiff = 2, kScar = 0.2;
@@ -100,7 +102,47 @@ TrainingLoad random_segments(TrainingLoad load, int segments, bool contracts, st
   return load;
 }
 
+// How segments are changed in a state of the path, as far as linear answers reach and beyond.
+void add_changed_segments(const std::string& state, int segments, bool contracts, TuningPlan& plan) {
+  if (contracts) plan.far_neighbours.push_back({state, each_segment(segments, kScar, 1)});
+  plan.neighbours.push_back({state, each_segment(segments, 1, kStiff)});
+}
+
 }  // namespace
+
+TuningPlan tuning_plan(const TrainingLoad& load, const Ventricle& untrained) {
+  const bool contracts = untrained.contraction != nullptr;
+  const int segments = num_segments(*untrained.anatomy->coordinates);
+  const auto share = [load](double pressure, double tension) {
+    TrainingLoad out = load;
+    out.pressures_kPa *= pressure;
+    out.level *= tension;
+    std::ostringstream name;
+    name << "pressure × " << pressure << ", tension × " << tension;
+    out.name = name.str();
+    return out;
+  };
+  TuningPlan out;
+  for (const double s : {0.25, 0.5, 0.75, 0.95}) out.path.push_back(share(s, s));
+  out.path.back().name = kNearTheEnd;
+  out.path.push_back(share(1.1, 1.1));
+  if (contracts) {
+    out.path.push_back(share(0.8, 1));
+    out.path.push_back(share(1, 0.8));
+    out.path.push_back(share(1, 1.2));
+  }
+  add_changed_segments(kNearTheEnd, segments, contracts, out);
+  out.held_out = [=](int round) {
+    std::mt19937_64 random(static_cast<unsigned>(round) + 1);
+    const double between = std::fmod(0.45 + 0.6180339887 * round, 1.0);
+    std::vector<TrainingLoad> loads{share(between, between), share(0.95 + 0.1 * between, 1)};
+    TrainingLoad end = load;
+    end.name = kNearTheEnd;  // what is learned where a load of this name is far off
+    for (int k = 0; k < kRandomLoads; ++k) loads.push_back(random_segments(end, segments, contracts, random));
+    return loads;
+  };
+  return out;
+}
 
 TuningPlan tuning_plan(const HeartPath& path, const Ventricle& untrained, const Scene& scene) {
   if (path.steps.empty())
@@ -131,10 +173,9 @@ TuningPlan tuning_plan(const HeartPath& path, const Ventricle& untrained, const 
     if (key.es.pressures_kPa.size() > 1)
       out.path.push_back(
           with_cavity(load_at("", key.es, begin), "end systole, right pressure × 1.5", 1, 1.5));
-    out.far_neighbours.push_back({kEmptied, each_segment(segments, kScar, 1)});
-    out.neighbours.push_back({kEmptied, each_segment(segments, 1, kStiff)});
+    add_changed_segments(kEmptied, segments, true, out);
   }
-  out.neighbours.push_back({kFilled, each_segment(segments, 1, kStiff)});
+  add_changed_segments(kFilled, segments, false, out);
 
   out.held_out = [=, states = path.steps](int round) {
     HeartPath again;

@@ -79,5 +79,14 @@ TEST(AxesCheck, TheRidgedWallIsAsCompliantAsFullOrder) {
   EXPECT_LT(off("auto"), off("heart"));
 }
 
+TEST(MovingBaseWarning, IsGivenWhereTheBaseMoves) {
+  Protocol protocol = passive();
+  EXPECT_THAT(moving_base_warning(protocol), IsEmpty());
+  for (const auto base : {protocol::Base::elastic, protocol::Base::sliding}) {
+    protocol.boundary.base = base;
+    EXPECT_THAT(moving_base_warning(protocol), HasSubstr("boundary.base"));
+  }
+}
+
 }  // namespace
 }  // namespace cardiac
