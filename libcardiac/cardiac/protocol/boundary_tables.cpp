@@ -7,6 +7,12 @@ namespace {
 // Nothing that is not asked for.
 const char* const kNothing = "convention: nothing that is not asked for";
 
+Condition weights_differ() {
+  return {"another epicardial_base_weight than epicardial_apex_weight", [](const Protocol& p, std::size_t) {
+            return p.boundary.epicardial_base_weight != p.boundary.epicardial_apex_weight;
+          }};
+}
+
 // What holds an elastic base.
 void add_base(TableBuilder<Boundary>& table) {
   const auto elastic = [](KeyFacts facts) {
@@ -85,7 +91,7 @@ void add_weights(TableBuilder<Boundary>& table) {
                 "how the factor depends on the height h along the long axis, 0 at the apex of the cavity and "
                 "1 at the base: linear: w = w_apex + (w_base − w_apex) h; smooth: with 3 h² − 2 h³ for h",
             .source = "convention: the simplest",
-            .also = {held()}})
+            .also = {held(), weights_differ()}})
       .key("epicardial_weight_array", &Boundary::epicardial_weight_array,
            {.meaning =
                 "array of the mesh file with one number ≥ 0 a point: a further factor on the springs and "

@@ -12,8 +12,8 @@ namespace cardiac {
 /// stiffness (70–150 %) at random, seeded by the round.
 TuningPlan tuning_plan(const HeartPath& path, const Ventricle& untrained, const Scene& scene);
 
-/// The same for a wall that is loaded at once, to pressures and a tension that rise together: the loads on the
-/// way to them and somewhat beyond, and answers of every segment near its end.
+/// The same for a wall that is loaded at once, to pressures and a tension that rise together: the loads on
+/// the way to them and somewhat beyond, and answers of every segment near its end.
 TuningPlan tuning_plan(const TrainingLoad& load, const Ventricle& untrained);
 
 }  // namespace cardiac

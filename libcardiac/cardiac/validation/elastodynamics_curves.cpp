@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <cardiac/report/axes.hpp>
 #include <cardiac/core/csv_reader.hpp>
+#include <cardiac/report/axes.hpp>
 #include <cardiac/report/csv_writer.hpp>
 #include <cardiac/report/text.hpp>
 

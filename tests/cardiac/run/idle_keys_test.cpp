@@ -104,6 +104,11 @@ std::vector<RunKind> kinds() {
        affine + "[tissue]\nlaw = \"neo_hookean\"\n[cavities]\npressure_mmHg = 4\n[boundary]\n"
                 "epicardial_stiffness_kPa_per_mm = 0.5\n[time]\nload_steps = 1\n",
        {"boundary"}},
+      {"weighed",
+       affine +
+           "[tissue]\nlaw = \"neo_hookean\"\n[cavities]\npressure_mmHg = 4\n[boundary]\n"
+           "epicardial_stiffness_kPa_per_mm = 0.5\nepicardial_base_weight = 0.5\n[time]\nload_steps = 1\n",
+       {"boundary"}},
       {"linear",
        "[tissue]\nlaw = \"saint_venant_kirchhoff\"\n[cavities]\npressure_mmHg = 1\n[time]\nload_steps = 2\n",
        {"reduction", "tissue"}},
@@ -116,13 +121,23 @@ std::vector<RunKind> kinds() {
 /// Not tried: what is read before or written after what is computed here, what must fit the mesh (or needs
 /// several openings of it), what is a kind of its own, and what tells how many beats there are.
 bool elsewhere(const std::string& path) {
-  static const std::set<std::string> paths{
-      "anatomy.scheme",      "anatomy.mitral_point", "output.frames",
-      "reduction.method",    "fibres.source",        "activation.mode",
-      "output.tables",       "output.figures",       "output.mesh_series",
-      "region.name",         "time.max_beats",       "time.limit_cycle_tolerance_percent",
-      "contraction.model",   "circulation.loop",     "cavities.pressure_file",
-      "cavities.volume_file"};
+  static const std::set<std::string> paths{"anatomy.scheme",
+                                           "anatomy.mitral_point",
+                                           "output.frames",
+                                           "reduction.method",
+                                           "fibres.source",
+                                           "activation.mode",
+                                           "output.tables",
+                                           "output.figures",
+                                           "output.mesh_series",
+                                           "region.name",
+                                           "time.max_beats",
+                                           "time.limit_cycle_tolerance_percent",
+                                           "contraction.model",
+                                           "circulation.loop",
+                                           "cavities.pressure_file",
+                                           "cavities.volume_file",
+                                           "boundary.epicardial_weight_array"};
   return path.starts_with("mesh.") || paths.contains(path);
 }
 
