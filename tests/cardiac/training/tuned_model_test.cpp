@@ -147,7 +147,7 @@ TEST_F(TunedModels, TellTheirErrorWithinAFactorOfTwo) {
   const auto truth = verify_path(outcome.model, protocol, outcome.path);
   Protocol other = protocol;
   other.tuned = outcome.model.tuned;
-  other.contraction->contractility_kPa *= 2.5;
+  other.contraction->contractility_kPa *= 3.5;
   const Outcome strong = simulate(other);
   const auto strong_truth = verify_path(strong.model, other, strong.path);
   double last = 0;
