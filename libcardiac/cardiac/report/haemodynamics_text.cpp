@@ -46,8 +46,8 @@ std::vector<std::string> haemodynamics_lines(const VentricleSummary& v) {
   for (const auto& [phase, change] : {std::pair{"contraction", v.isovolumetric_contraction_change_mL},
                                       std::pair{"relaxation", v.isovolumetric_relaxation_change_mL}})
     if (std::abs(change) > negligible_mL)
-      lines.push_back("leaks change the volume by " + display_text(change, 1) + " mL in isovolumetric " +
-                      phase);
+      lines.push_back("flow past closed valves changes the volume by " + display_text(change, 1) +
+                      " mL in isovolumetric " + phase);
   return lines;
 }
 
