@@ -22,7 +22,7 @@ std::string text_of(const scene::Reduction& r, std::size_t points, int unknowns)
 void check_rest(const Ventricle& ventricle, const Scene& scene) {
   // Without contraction: what a passive wall resists. Tensions of zero where its laws want them.
   const auto no_tension =
-      ventricle.contraction
+      ventricle.contraction && !ventricle.muscle
           ? polyaffine::constant_values(Vector::Zero(ventricle.contraction->delay_ms.size()))
           : nullptr;
   const polyaffine::System system = wall_system(ventricle, no_tension);

@@ -6,6 +6,7 @@
 #include <cardiac/model/supports.hpp>
 #include <cardiac/model/vertex_displacement.hpp>
 #include <cardiac/scene/contraction_time.hpp>
+#include <cardiac/tissue/fibre_tension.hpp>
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/kinematics/lagrange.hpp>
 #include <polyaffine/material/signed_volume.hpp>
@@ -86,18 +87,32 @@ std::shared_ptr<const ContractionField> build_contraction(const Anatomy& anatomy
   ++built["contraction"];
   ++built["activation"];
   const Vector at_vertices = vertex_activation(anatomy, scene);
+  const Scene timed = with_twitch(scene);
   const TensionCurve curve =
-      scene.contraction->tension
-          ? TensionCurve(*scene.contraction->tension)
+      timed.contraction->tension
+          ? TensionCurve(*timed.contraction->tension)
           : TensionCurve(bestel_parameters(*scene.contraction, scene.time), scene.time.beat_ms);
   ContractionField out{curve, at_points(anatomy, at_vertices, points),
-                       Vector::Ones(static_cast<Eigen::Index>(points.tet.size())), at_vertices};
+                       Vector::Ones(static_cast<Eigen::Index>(points.tet.size())), at_vertices,
+                       scene.contraction->feels_fibre() ? 0 : curve.contraction_begin_ms()};
   if (!factors.tension.empty()) {
     out.scale = Eigen::Map<const Vector>(factors.tension.data(), out.scale.size());
     out.delay_ms += Eigen::Map<const Vector>(factors.delay_ms.data(), out.scale.size());
     out.vertex_delay_ms += vertex_region_delay(anatomy, scene);
   }
   return std::make_shared<ContractionField>(std::move(out));
+}
+
+// Sarcomeres at the points of the wall.
+std::shared_ptr<const Muscle> build_muscle(const Anatomy& anatomy, const Scene& scene,
+                                           const Discretisation& d, const FieldEnergy& wall,
+                                           const ContractionField& field) {
+  const FibreAxes axes = fibres_at(anatomy, *scene.fibres, d.points.tet, d.points.barycentric);
+  auto law = std::make_shared<FibreTension>(axes, scene.contraction->cross_fibre_fraction);
+  return std::make_shared<const Muscle>(Muscle{
+      sarcomere_model(*scene.contraction, scene.time),
+      std::make_shared<FieldEnergy>(wall.table(), std::vector<std::shared_ptr<const polyaffine::Law>>{law}),
+      axes.topRows<3>(), field.delay_ms, field.scale});
 }
 
 // The mass is integrated at points that are exact for products of two functions: those of the elements, or of
@@ -139,8 +154,12 @@ Cavity cavity_of(const polyaffine::Basis& basis, const CavitySurface& surface) {
 }
 
 polyaffine::PointValues Ventricle::tension() const {
-  if (!contraction) return {};
+  if (!contraction || muscle) return {};
   return polyaffine::remembered([field = contraction](double t) { return field->tension(t); });
+}
+
+Vector Ventricle::tension_at(double time_ms) const {
+  return contraction && !muscle ? contraction->tension(time_ms) : Vector();
 }
 
 Vector Ventricle::cavity_volumes(const Vector& c) const {
@@ -174,6 +193,12 @@ Ventricle assemble_ventricle(std::shared_ptr<const Anatomy> anatomy, const Scene
     out.states.push_back(inertia(d, scene.tissue.density_mg_per_mm3));
   }
   if (scene.contraction) out.contraction = build_contraction(*anatomy, scene, d.points, factors, out.built);
+  if (scene.contraction && scene.contraction->feels_fibre()) {
+    out.muscle = build_muscle(*anatomy, scene, d, *out.wall, *out.contraction);
+    out.states.push_back([muscle = out.muscle](polyaffine::StateLayout& layout, const scene::Time&) {
+      return std::make_shared<MuscleTerm>(muscle, layout);
+    });
+  }
   out.anatomy = std::move(anatomy);
   return out;
 }
@@ -193,6 +218,11 @@ void add_states(const Ventricle& ventricle, const scene::Time& time, polyaffine:
   for (const StateTerm& make : ventricle.states) system.terms.push_back(make(system.layout, time));
 }
 
+void rest_muscle(const polyaffine::System& system, double time_ms, Vector& y) {
+  for (const auto& term : system.terms)
+    if (const auto* muscle = dynamic_cast<const MuscleTerm*>(term.get())) muscle->rest(time_ms, y);
+}
+
 polyaffine::System pressed_system(const Ventricle& ventricle, polyaffine::PointValues tension,
                                   const std::vector<polyaffine::FieldTerm::Scale>& pressures_kPa,
                                   double tolerance_mm) {
@@ -204,8 +234,8 @@ polyaffine::System pressed_system(const Ventricle& ventricle, polyaffine::PointV
 }
 
 polyaffine::System loaded_ventricle(const Ventricle& ventricle, const WallLoad& load) {
-  return loaded_ventricle(ventricle,
-                          {Vector::Zero(load.pressures_kPa.size()), Vector::Zero(load.tension.size())}, load);
+  return loaded_ventricle(
+      ventricle, {Vector::Zero(load.pressures_kPa.size()), Vector::Zero(load.tension.size()), 0}, load);
 }
 
 polyaffine::System loaded_ventricle(const Ventricle& ventricle, const WallLoad& from, const WallLoad& to) {
@@ -213,8 +243,11 @@ polyaffine::System loaded_ventricle(const Ventricle& ventricle, const WallLoad& 
   for (Eigen::Index k = 0; k < to.pressures_kPa.size(); ++k)
     pressures.emplace_back(
         [p0 = from.pressures_kPa[k], p1 = to.pressures_kPa[k]](double t) { return (1 - t) * p0 + t * p1; });
-  return pressed_system(
+  polyaffine::System out = pressed_system(
       ventricle, to.tension.size() > 0 ? polyaffine::ramp(from.tension, to.tension) : nullptr, pressures);
+  if (ventricle.muscle && (from.resting > 0 || to.resting > 0))
+    out.terms.push_back(std::make_shared<RestingMuscle>(ventricle.muscle, 0, from.resting, to.resting));
+  return out;
 }
 
 }  // namespace cardiac

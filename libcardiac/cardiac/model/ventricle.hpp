@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <cardiac/contraction/bestel_2001.hpp>
+#include <cardiac/model/muscle.hpp>
 #include <cardiac/model/wall.hpp>
 #include <polyaffine/system/field_term.hpp>
 #include <polyaffine/system/system.hpp>
@@ -13,10 +14,11 @@ namespace cardiac {
 
 /// When and how strongly each integration point contracts.
 struct ContractionField {
-  TensionCurve curve;
+  TensionCurve curve;                  ///< of sarcomeres: their isometric twitch, which tells when they pull
   polyaffine::Vector delay_ms;         ///< activation time of each point
   polyaffine::Vector scale;            ///< factor on the tension of the curve
   polyaffine::Vector vertex_delay_ms;  ///< activation time of each vertex of the mesh
+  double begin_ms = 0;                 ///< of contraction, from the excitation of a point
 
   /// Active tension of all points at a time, kPa.
   polyaffine::Vector tension(double time_ms) const;
@@ -42,6 +44,7 @@ struct Ventricle {
   polyaffine::Terms supports;     ///< what holds the wall's surfaces
   std::vector<StateTerm> states;  ///< terms with unknowns of their own, for systems in time
   std::shared_ptr<const ContractionField> contraction;
+  std::shared_ptr<const Muscle> muscle;         ///< null where tension is a function of time alone
   std::shared_ptr<const Ventricle> all_points;  ///< the same without a trained rule; null where there is none
   std::shared_ptr<const TunedModel> tuned;      ///< that it is made of; null where nothing was learned
   BuildCount built;
@@ -52,8 +55,9 @@ struct Ventricle {
   }
   /// Of all cavities, mm³.
   polyaffine::Vector cavity_volumes(const polyaffine::Vector& c) const;
-  /// Active tension of every point at a time, kPa; empty without contraction.
+  /// Active tension of every point at a time, kPa; empty where it is no function of time alone.
   polyaffine::PointValues tension() const;
+  polyaffine::Vector tension_at(double time_ms) const;
 };
 
 /// The cavity behind a surface, on functions.
@@ -70,6 +74,7 @@ Ventricle assemble_ventricle(std::shared_ptr<const Anatomy> anatomy, const Scene
 struct WallLoad {
   polyaffine::Vector pressures_kPa{};
   polyaffine::Vector tension{};
+  double resting = 1;  ///< share of the tension of sarcomeres that are held, at the begin of the run
 
   /// The tension as laws see it; it must outlive that.
   polyaffine::PointState state() const { return {tension.data(), static_cast<std::size_t>(tension.size())}; }
@@ -82,6 +87,8 @@ polyaffine::System wall_system(const Ventricle& ventricle, polyaffine::PointValu
 
 /// Adds the terms that have unknowns of their own to a system in time; of `time` the tolerances are read.
 void add_states(const Ventricle& ventricle, const scene::Time& time, polyaffine::System& system);
+/// Sets the states of sarcomeres to those that last at the drive of a time, for the wall that y describes.
+void rest_muscle(const polyaffine::System& system, double time_ms, polyaffine::Vector& y);
 
 /// The same under pressures p(t) in the cavities, − Σ p ∂V/∂c. Cavities without a pressure have none.
 polyaffine::System pressed_system(const Ventricle& ventricle, polyaffine::PointValues tension,

@@ -119,7 +119,7 @@ std::shared_ptr<const polyaffine::FieldEnergy> build_wall(const Anatomy& anatomy
   }
   const scene::Tissue& tissue = scene.tissue;
   std::vector<LawPointer> laws{passive_law(tissue, fibres, factors.stiffness)};
-  if (scene.contraction)
+  if (scene.contraction && !scene.contraction->feels_fibre())
     laws.push_back(std::make_shared<ActiveStress>(fibres, scene.contraction->cross_fibre_fraction));
 
   std::optional<polyaffine::PressureSpace> pressure;

@@ -23,6 +23,11 @@ Condition one_pressure() {
           }};
 }
 
+Condition calcium_formula() {
+  return {"no contraction.calcium_file",
+          [](const Protocol& p, std::size_t) { return !(p.contraction && p.contraction->calcium_file); }};
+}
+
 Condition files() {
   return {"pressure_file or volume_file", [](const Protocol& p, std::size_t) {
             return p.cavities && (p.cavities->pressure_file || p.cavities->volume_file);

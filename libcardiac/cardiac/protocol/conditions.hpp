@@ -14,6 +14,8 @@ Condition beats();
 Condition in_time();
 /// The pressure of the cavities is one number; it or their volume is a table.
 Condition one_pressure();
+/// Calcium follows its formula.
+Condition calcium_formula();
 Condition files();
 /// The circulation consists of windkessels; it is a network of one's own.
 Condition windkessels();

@@ -173,6 +173,22 @@ void read_tension(Protocol& protocol, const Place& place) {
   contraction.tension = std::make_shared<const GivenCurve>(std::move(curve));
 }
 
+void read_calcium(Protocol& protocol, const Place& place) {
+  Contraction& contraction = *protocol.contraction;
+  const std::string file = file_of(protocol, *contraction.calcium_file, "contraction.calcium_file", place);
+  const CsvTable table{file};
+  const Column time(table, file, kTime);
+  const Column calcium(table, file, {{"calcium_uM", 1}, {"calcium_nM", 1e-3}, {"calcium_mM", 1e3}});
+  Samples samples;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const double value = calcium(row);
+    if (!(value >= 0 && value <= 100)) calcium.fail(row, "a concentration of 0 to 100 uM");
+    add(samples, time, row, value);
+  }
+  contraction.calcium = std::make_shared<const GivenCurve>(curve_of(
+      std::move(samples), Repeats::yes, protocol.time.beat_ms, protocol.time.duration_ms, file, "calcium"));
+}
+
 void read_times(Protocol& protocol, const Place& place) {
   Activation& activation = *protocol.activation;
   const std::string file = file_of(protocol, *activation.file, "activation.times_file", place);
@@ -202,6 +218,9 @@ void read_given_files(Protocol& protocol, const Place& place) {
     read_cavities(protocol, place);
   if (protocol.contraction && protocol.contraction->model == ContractionModel::table)
     read_tension(protocol, place);
+  if (protocol.contraction && protocol.contraction->model == ContractionModel::land_2017 &&
+      protocol.contraction->calcium_file)
+    read_calcium(protocol, place);
   if (protocol.activation && protocol.activation->mode == ActivationMode::table) read_times(protocol, place);
 }
 

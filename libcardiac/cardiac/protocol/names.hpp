@@ -51,8 +51,8 @@ constexpr Names<1> names_of(FibreRule) {
 constexpr Names<4> names_of(ActivationMode) {
   return {"uniform", "sites", "array", "table"};
 }
-constexpr Names<2> names_of(ContractionModel) {
-  return {"bestel_clement_sorine_simplified", "table"};
+constexpr Names<4> names_of(ContractionModel) {
+  return {"bestel_clement_sorine_simplified", "table", "bestel_clement_sorine", "land_2017"};
 }
 constexpr Names<3> names_of(Repeats) {
   return {"auto", "yes", "no"};

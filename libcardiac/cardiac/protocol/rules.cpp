@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include <cardiac/core/units.hpp>
+#include <cardiac/protocol/key.hpp>
 #include <cardiac/protocol/names.hpp>
 #include <cardiac/protocol/nearest_key.hpp>
 #include <cardiac/protocol/rules.hpp>
@@ -156,10 +157,35 @@ void check_activity(const Protocol& protocol, const Place& place) {
          "found \"file\" beside mesh.shape; expected \"rule\" or a mesh.file with fibres");
 }
 
+// What does not know a tension that feels the fibre, and numbers that contradict each other.
+void check_sarcomeres(const Protocol& protocol, const Place& place) {
+  const Contraction& c = *protocol.contraction;
+  if (!c.feels_fibre()) return;
+  const std::string model = "found contraction.model = " + name_of(c.model);
+  if (protocol.reduction.method == Method::polyaffine && protocol.reduction.preset != Preset::tuned &&
+      protocol.reduction.integration == Integration::trained)
+    fail(place, "reduction.integration",
+         "found trained; " + model +
+             ", whose tension trained points do not know; expected cells or gauss, or preset = \"tuned\"");
+  if (c.model == ContractionModel::bestel_clement_sorine && c.contractility_kPa == 0)
+    fail(place, "contraction.contractility_kPa", model + " and 0 kPa, expected more than 0");
+  if (c.model != ContractionModel::land_2017 || c.calcium_file) return;
+  if (!(c.peak_calcium_uM > c.diastolic_calcium_uM))
+    fail(place, "contraction.peak_calcium_uM",
+         "found " + number_text(c.peak_calcium_uM) + " uM, expected more than diastolic_calcium_uM, " +
+             number_text(c.diastolic_calcium_uM) + " uM");
+  const auto [rise, decay] = calcium_times(c, protocol.time);
+  if (!(decay > rise))
+    fail(place, "contraction.calcium_decay_ms",
+         "found " + number_text(decay) + " ms, expected more than the rise, " + number_text(rise) + " ms");
+}
+
 // Contraction and relaxation must fit into a beat.
 void check_contraction_time(const Protocol& protocol, const Place& place) {
   if (!protocol.contraction || protocol.contraction->model == ContractionModel::table) return;
   const double beat = protocol.time.beat_ms;
+  check_sarcomeres(protocol, place);
+  if (protocol.contraction->model == ContractionModel::land_2017) return;
   try {
     check_contraction(bestel_parameters(*protocol.contraction, protocol.time), beat);
   } catch (const InputError& error) {

@@ -204,10 +204,11 @@ bool begin_beats(const Ventricle& ventricle, const Scene& scene, const RunContro
   const CirculationStart start = circulation_start(ventricle.cavities.size() > 1, scene);
   Vector c = Vector::Zero(ventricle.num_coefficients());
   const auto begin = std::chrono::steady_clock::now();
-  const bool filled = fill(ventricle, start.filling_kPa, ventricle.contraction->tension(0), control, path, c);
+  const bool filled = fill(ventricle, start.filling_kPa, ventricle.tension_at(0), control, path, c);
   path.cost.filling_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (!filled) return false;
   y = heart.pack(filled_state(ventricle, start, c));
+  rest_muscle(heart.system, 0, y);
   rate = Vector::Zero(y.size());
   add_cost(make_consistent(heart, linear, 0, y, rate), path.cost);
   return true;

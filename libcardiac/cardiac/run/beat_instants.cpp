@@ -42,8 +42,7 @@ double contraction_onset_ms(const ContractionField& contraction) {
   for (Eigen::Index i = 0; i < contraction.delay_ms.size(); ++i)
     if (contraction.scale[i] > 0) first = std::min(first, contraction.delay_ms[i]);
   if (!std::isfinite(first)) first = 0;
-  const double onset = first + contraction.curve.contraction_begin_ms(),
-               period = contraction.curve.period_ms();
+  const double onset = first + contraction.begin_ms, period = contraction.curve.period_ms();
   return onset < 0 ? 0 : onset - period * std::floor(onset / period);
 }
 

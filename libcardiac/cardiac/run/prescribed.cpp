@@ -67,7 +67,7 @@ double last_onset(const ContractionField& contraction, double duration_ms) {
 // time of the loading is `lasts_ms`. False, with the reason, when it stopped.
 bool load_wall(const Ventricle& ventricle, const Scene& scene, const RunControl& control,
                const Vector& pressures_kPa, double lasts_ms, Vector& c, HeartPath& path) {
-  const Vector tension = ventricle.contraction ? ventricle.contraction->tension(0) : Vector();
+  const Vector tension = ventricle.tension_at(0);
   const polyaffine::System system = loaded_ventricle(ventricle, {pressures_kPa, tension});
   const auto tell = [&](double load, const Vector& at) {
     path.outputs.push_back(state_of(ventricle, load * lasts_ms, at, load * pressures_kPa));
@@ -98,7 +98,7 @@ std::optional<Vector> pressures_of(const Ventricle& ventricle, const Scene& scen
   constexpr int kMostSteps = 40;
   constexpr double kClose = 1e-6;     // of the volumes, relative
   constexpr double kProbe_kPa = 0.1;  // by which the first compliance is measured
-  const Vector tension = ventricle.contraction ? ventricle.contraction->tension(0) : Vector();
+  const Vector tension = ventricle.tension_at(0);
   const auto m = volumes_mm3.size();
   Vector p = Vector::Zero(m);
   bool first = true;
@@ -160,6 +160,7 @@ class WallInTime {
     add_states(ventricle, scene.time, system_);
     Vector y = Vector::Zero(system_.size());
     system_.layout.field().of(y) = c;
+    rest_muscle(system_, 0, y);
     begin(std::move(y), Vector::Zero(system_.size()));
   }
 
@@ -172,6 +173,7 @@ class WallInTime {
         heart_(couple(ventricle, std::make_shared<GivenVolumes>(given.curves), scene.time)),
         system_(heart_->system) {
     Vector y = heart_->pack({0, c, ventricle.cavity_volumes(c), p});
+    rest_muscle(system_, 0, y);
     Vector rate = Vector::Zero(y.size());
     make_consistent(*heart_, *system_.make_linear(), 0, y, rate);
     begin(std::move(y), std::move(rate));

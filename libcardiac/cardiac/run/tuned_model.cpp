@@ -9,6 +9,7 @@
 #include <cardiac/run/key_states.hpp>
 #include <cardiac/run/statics.hpp>
 #include <cardiac/run/tuning_plan.hpp>
+#include <cardiac/scene/contraction_time.hpp>
 #include <cardiac/scene/presets.hpp>
 #include <cardiac/training/tuned_archive.hpp>
 
@@ -37,9 +38,10 @@ std::string percent(double value) {
 
 }  // namespace
 
-std::shared_ptr<const TunedModel> tuned_model(const std::shared_ptr<const Anatomy>& anatomy,
-                                              const Scene& scene, const RunControl& control) {
-  if (scene.tuned) return scene.tuned;
+std::shared_ptr<const TunedModel> tuned_model(const std::shared_ptr<const Anatomy>& anatomy, const Scene& of,
+                                              const RunControl& control) {
+  if (of.tuned) return of.tuned;
+  const Scene scene = with_twitch(of);  // states to learn from are at rest
   if (auto kept = cached_model(*anatomy, scene)) return std::make_shared<const TunedModel>(std::move(*kept));
   const Scene plain = untrained(*anatomy, scene);
   const Ventricle model = build_ventricle(anatomy, plain, scene::Method::polyaffine);
@@ -60,7 +62,7 @@ std::shared_ptr<const TunedModel> tuned_model(const std::shared_ptr<const Anatom
 
 std::vector<EstimatedError> estimated_errors(const Ventricle& model, const Scene& scene,
                                              const HeartPath& path) {
-  if (path.steps.empty()) return {};
+  if (path.steps.empty() || model.muscle) return {};
   const TunedModel& tuned = *model.tuned;
   const Ventricle full = build_ventricle(model.anatomy, scene, scene::Method::fem);
   const Ventricle larger =
@@ -89,6 +91,10 @@ std::vector<std::string> tuned_warnings(const TunedModel& model, const Scene& sc
         " of displacement off in the worst load held out, " + percent(last.segments.displacement_percent) +
         " where every segment has changed; asked were " + percent(accuracy) + " and " +
         percent(kSegmentsAllowance * accuracy) + "; more time (reduction.budget_s) may do");
+  if (scene.contraction && scene.contraction->feels_fibre())
+    out.push_back(
+        "the error of the tuned model was not estimated: the tension of contraction.model feels the "
+        "fibre, and estimates are of walls at rest");
   for (const EstimatedError& at : errors)
     if (at.displacement_percent > kSegmentsAllowance * accuracy)
       out.push_back(

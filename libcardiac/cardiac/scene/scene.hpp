@@ -90,7 +90,7 @@ struct Activation {
   std::shared_ptr<const ActivationMap> map{};        ///< what the array or the table says; null: not read yet
 };
 
-enum class ContractionModel { bestel_clement_sorine_simplified, table };
+enum class ContractionModel { bestel_clement_sorine_simplified, table, bestel_clement_sorine, land_2017 };
 struct Contraction {
   ContractionModel model = ContractionModel::bestel_clement_sorine_simplified;
   double contractility_kPa = 150;
@@ -101,6 +101,21 @@ struct Contraction {
   double cross_fibre_fraction = 0.25;
   std::optional<std::string> tension_file{};    ///< of the model table
   std::shared_ptr<const GivenCurve> tension{};  ///< what it says, kPa from the excitation of a point on
+  std::optional<double> time_factor{};  ///< on all times but those that are given; set by the heart rate
+  double overlap_slope = 2.3;           ///< β₀, from here on of models that feel the fibre
+  std::optional<double> bridge_stiffness_kPa{};  ///< set by contractility_kPa when the file does not name it
+  double series_stiffness_kPa = 1e5, bridge_viscosity_kPa_ms = 70, rate_destruction = 12;
+  double reference_tension_kPa = 120;  ///< from here on of land_2017
+  double calcium_50_uM = 0.805, calcium_slope_uM = -2.4;
+  double diastolic_calcium_uM = 0.1, peak_calcium_uM = 0.9;
+  std::optional<double> calcium_rise_ms{}, calcium_decay_ms{};  ///< set by the heart rate
+  std::optional<std::string> calcium_file{};
+  std::shared_ptr<const GivenCurve> calcium{};  ///< what it says, µM since excitation
+
+  /// Is the tension more than a function of time?
+  bool feels_fibre() const {
+    return model == ContractionModel::bestel_clement_sorine || model == ContractionModel::land_2017;
+  }
 };
 
 enum class Repeats { automatic, yes, no };

@@ -151,8 +151,14 @@ void set_tolerances(const StateLayout& layout, UserData& data) {
     block.at.of(data.absolute_tolerance).setConstant(block.absolute_tolerance);
   const double field = layout.field().size, few = static_cast<double>(layout.few().size());
   if (field > 0 && few > 0) data.error_weight(layout.few()).setConstant(std::sqrt(field / few));
-  // The mean is over all unknowns: those that no norm sees are to leave it as it is without them.
-  const double seen = static_cast<double>(data.absolute_tolerance.array().isFinite().count());
+  // The mean is over all unknowns: those that no norm sees are to leave it as it is without them, and states
+  // of points count as often as the field.
+  double seen = field + few;
+  for (const Block& block : layout.blocks()) {
+    if (block.solved != Solved::apart || !std::isfinite(block.absolute_tolerance)) continue;
+    seen += field;
+    block.at.of(data.error_weight).setConstant(std::sqrt(field / block.at.size));
+  }
   data.error_weight *= std::sqrt(static_cast<double>(layout.size()) / seen);
 }
 

@@ -24,9 +24,10 @@ enum class DaeStatus { reached, failed };
 
 /// A system R(t, y, ẏ) = 0 in time by variable-order, variable-step BDF (SUNDIALS IDA; Hindmarsh et al.
 /// 2005). A step is taken back and made smaller where the state is not admissible (det F ≤ 0). The error norm
-/// is a mean over all unknowns in which the few unknowns count as much as the whole field, however many
-/// coefficients it has. Inside, pressures of terms are unknowns of their own (mixed_form), which neither the
-/// norm nor the caller sees: a tangent then serves as long for a stiff volume as for a soft one.
+/// is a mean over all unknowns in which the few unknowns, and each block of states that a term solves apart,
+/// count as much as the whole field, however many coefficients it has. Inside, pressures of terms are
+/// unknowns of their own (mixed_form), which neither the norm nor the caller sees: a tangent then serves as
+/// long for a stiff volume as for a soft one.
 class DaeIntegrator {
  public:
   /// The system must outlive it, and so must the LinearSystem of its field (System::make_linear), which may

@@ -1,0 +1,248 @@
+#include "cardiac/model/muscle.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <utility>
+
+#include <polyaffine/core/parallel.hpp>
+
+namespace cardiac {
+
+using polyaffine::At;
+using polyaffine::Matrix;
+using polyaffine::Vector;
+
+namespace {
+
+constexpr int kMost = kMostSarcomereStates;
+using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMost, kMost>;
+using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMost, 1>;
+
+// The displacement gradient of coefficients at all points, 9 × points, without the identity.
+Matrix gradient(const polyaffine::FieldTable& table, const Vector& c) {
+  Matrix out = Matrix::Zero(9, table.num_points());
+  polyaffine::parallel_for(0, static_cast<int>(table.blocks.size()), [&](int k) {
+    const polyaffine::PointBlock& block = table.blocks[static_cast<std::size_t>(k)];
+    polyaffine::add_field(block, polyaffine::gather(block, c), out.col(block.first).data());
+  });
+  return out;
+}
+
+polyaffine::PointState of(const Vector& values) {
+  return {values.data(), static_cast<std::size_t>(values.size())};
+}
+
+template <class Work>
+void for_points(int count, const Work& work) {
+  constexpr int kChunk = 256;
+  const int chunks = (count + kChunk - 1) / kChunk;
+  const auto run = [&](int k) {
+    for (int q = k * kChunk; q < std::min(count, (k + 1) * kChunk); ++q) work(q);
+  };
+  if (chunks > 8)
+    polyaffine::parallel_for(0, chunks, run);
+  else
+    for (int k = 0; k < chunks; ++k) run(k);
+}
+
+}  // namespace
+
+Vector Muscle::drive(double time_ms) const {
+  Vector out(delay_ms.size());
+  for (Eigen::Index q = 0; q < out.size(); ++q)
+    out[q] = q > 0 && delay_ms[q] == delay_ms[q - 1] ? out[q - 1] : sarcomere->drive(time_ms - delay_ms[q]);
+  return out;
+}
+
+FibreStretch fibre_stretch(const Muscle& muscle, const Vector& c, const Vector* rate) {
+  const auto& table = muscle.energy->table();
+  Matrix F = gradient(table, c);
+  Matrix F_rate;
+  if (rate) F_rate = gradient(table, *rate);
+  FibreStretch out;
+  const int n = muscle.num_points();
+  out.stretch.resize(n);
+  out.by_F.resize(9, n);
+  if (rate) out.rate.resize(n);
+  for_points(n, [&](int q) {
+    const polyaffine::Vec3 f = muscle.fibres.col(q);
+    const polyaffine::Vec3 moved = f + F.col(q).reshaped(3, 3) * f;
+    out.stretch[q] = moved.norm();
+    out.by_F.col(q) = (moved / out.stretch[q] * f.transpose()).reshaped();
+    if (rate) out.rate[q] = out.by_F.col(q).dot(F_rate.col(q));
+  });
+  return out;
+}
+
+MuscleTerm::MuscleTerm(std::shared_ptr<const Muscle> muscle, polyaffine::StateLayout& layout)
+    : muscle_(std::move(muscle)),
+      num_states_(muscle_->sarcomere->num_states()),
+      c_{0, muscle_->energy->table().num_unknowns()} {
+  constexpr double kTolerance = 1e-3;  // of states that are of the order of one
+  z_ = layout.add({.name = "contraction",
+                   .unit = "1",
+                   .solved = polyaffine::Solved::apart,
+                   .absolute_tolerance = kTolerance},
+                  num_states_ * muscle_->num_points());
+}
+
+SarcomereModel::States MuscleTerm::states(const Vector& y, int point) const {
+  SarcomereModel::States out{};
+  for (int i = 0; i < num_states_; ++i) out[i] = y[z_.first + num_states_ * point + i];
+  return out;
+}
+
+void MuscleTerm::add_residual(const At& at, polyaffine::Residual& out) const {
+  const Vector c = c_.of(at.y), rate = at.rate_of(c_);
+  const FibreStretch fibre = fibre_stretch(*muscle_, c, &rate);
+  const Vector drive = muscle_->drive(at.t);
+  const int n = muscle_->num_points();
+  Vector tension = Vector::Zero(2 * n);
+  for_points(n, [&](int q) {
+    SarcomereResponse r;
+    muscle_->sarcomere->respond({drive[q], fibre.stretch[q], fibre.rate[q]}, states(at.y, q), false, r);
+    tension[q] = muscle_->scale[q] * r.tension_kPa;
+    for (int i = 0; i < num_states_; ++i) {
+      const int k = z_.first + num_states_ * q + i;
+      out.values[k] += (at.rate ? (*at.rate)[k] : 0) - r.rates[i];
+    }
+  });
+  const Vector force = muscle_->energy->evaluate({c, of(tension)}).gradient;
+  c_.of(out.values) += force;
+  out.forces += force.norm();
+}
+
+class MuscleTerm::EliminatedStates : public polyaffine::Elimination {
+ public:
+  EliminatedStates(const MuscleTerm& of, Vector c, Matrix by_F)
+      : of_(of), n_(of.num_states_), c_(std::move(c)), by_F_(std::move(by_F)) {
+    const int points = of.muscle_->num_points();
+    inverse_.resize(n_ * n_, points);
+    by_stretch_.resize(n_, points);
+    tension_by_.resize(n_, points);
+  }
+
+  // M⁻¹, M⁻¹ h and ∂T/∂z of a point; returns ∂T/∂z M⁻¹ h.
+  double set(int q, const SarcomereResponse& r, double alpha) {
+    Small M(n_, n_);
+    SmallVector h(n_), by_state(n_);
+    for (int i = 0; i < n_; ++i) {
+      for (int j = 0; j < n_; ++j) M(i, j) = (i == j ? alpha : 0) - r.rates_by_state[i][j];
+      h[i] = r.rates_by_stretch[i] + alpha * r.rates_by_rate[i];
+      by_state[i] = r.by_state[i];
+    }
+    const Small inverse = M.partialPivLu().inverse();
+    inverse_.col(q) = inverse.reshaped();
+    by_stretch_.col(q) = inverse * h;
+    tension_by_.col(q) = by_state;
+    return by_state.dot(by_stretch_.col(q));
+  }
+
+  void condense(const Vector& rhs, Eigen::Ref<Vector> field) const override {
+    const Muscle& muscle = *of_.muscle_;
+    const int points = muscle.num_points();
+    Vector tension = Vector::Zero(2 * points);
+    for_points(points, [&](int q) { tension[q] = muscle.scale[q] * tension_by_.col(q).dot(apart(rhs, q)); });
+    field.segment(of_.c_.first, of_.c_.size) -= muscle.energy->evaluate({c_, of(tension)}).gradient;
+  }
+  void recover(const Vector& rhs, Vector& step) const override {
+    const Matrix change = gradient(of_.muscle_->energy->table(), of_.c_.of(step));
+    for_points(of_.muscle_->num_points(), [&](int q) {
+      step.segment(of_.z_.first + n_ * q, n_) =
+          apart(rhs, q) + by_stretch_.col(q) * by_F_.col(q).dot(change.col(q));
+    });
+  }
+
+ private:
+  // M⁻¹ ρ_z of a point.
+  SmallVector apart(const Vector& rhs, int q) const {
+    return inverse_.col(q).reshaped(n_, n_) * rhs.segment(of_.z_.first + n_ * q, n_);
+  }
+
+  const MuscleTerm& of_;
+  int n_;
+  Vector c_;
+  Matrix by_F_, inverse_, by_stretch_, tension_by_;  // a column for each point
+};
+
+void MuscleTerm::add_tangent(const At& at, double alpha, polyaffine::Tangent& out) const {
+  const Vector c = c_.of(at.y), rate = at.rate_of(c_);
+  FibreStretch fibre = fibre_stretch(*muscle_, c, &rate);
+  const Vector drive = muscle_->drive(at.t);
+  const int n = muscle_->num_points();
+  auto eliminated = std::make_unique<EliminatedStates>(*this, c, std::move(fibre.by_F));
+  Vector tension(2 * n);
+  for_points(n, [&](int q) {
+    SarcomereResponse r;
+    muscle_->sarcomere->respond({drive[q], fibre.stretch[q], fibre.rate[q]}, states(at.y, q), true, r);
+    const double along = r.by_stretch + alpha * r.by_rate + eliminated->set(q, r, alpha);
+    tension[q] = muscle_->scale[q] * r.tension_kPa;
+    tension[n + q] = muscle_->scale[q] * along;
+  });
+  muscle_->energy->add_tangent({c, of(tension)}, out.field);
+  out.eliminations.push_back(std::move(eliminated));
+}
+
+void MuscleTerm::add_tables(std::vector<const polyaffine::FieldTable*>& out) const {
+  out.push_back(&muscle_->energy->table());
+}
+
+void MuscleTerm::rest(double time_ms, Vector& y) const {
+  const FibreStretch fibre = fibre_stretch(*muscle_, c_.of(y));
+  const Vector drive = muscle_->drive(time_ms);
+  for (int q = 0; q < muscle_->num_points(); ++q) {
+    const auto z = muscle_->sarcomere->at_rest(drive[q], fibre.stretch[q]);
+    for (int i = 0; i < num_states_; ++i) y[z_.first + num_states_ * q + i] = z[i];
+  }
+}
+
+Vector MuscleTerm::tension(const At& at) const {
+  const Vector rate = at.rate_of(c_);
+  const FibreStretch fibre = fibre_stretch(*muscle_, c_.of(at.y), &rate);
+  const Vector drive = muscle_->drive(at.t);
+  Vector out(muscle_->num_points());
+  for_points(muscle_->num_points(), [&](int q) {
+    SarcomereResponse r;
+    muscle_->sarcomere->respond({drive[q], fibre.stretch[q], fibre.rate[q]}, states(at.y, q), false, r);
+    out[q] = muscle_->scale[q] * r.tension_kPa;
+  });
+  return out;
+}
+
+RestingMuscle::RestingMuscle(std::shared_ptr<const Muscle> muscle, double time_ms, double from, double to)
+    : muscle_(std::move(muscle)),
+      drive_(muscle_->drive(time_ms)),
+      from_(from),
+      to_(to),
+      c_{0, muscle_->energy->table().num_unknowns()} {}
+
+Vector RestingMuscle::tension_and_stiffness(double t, const Vector& c) const {
+  const FibreStretch fibre = fibre_stretch(*muscle_, c);
+  const int n = muscle_->num_points();
+  const double share = (1 - t) * from_ + t * to_;
+  Vector out(2 * n);
+  for_points(n, [&](int q) {
+    const RestingTension r = resting_tension(*muscle_->sarcomere, drive_[q], fibre.stretch[q]);
+    out[q] = share * muscle_->scale[q] * r.tension_kPa;
+    out[n + q] = share * muscle_->scale[q] * r.by_stretch;
+  });
+  return out;
+}
+
+void RestingMuscle::add_residual(const At& at, polyaffine::Residual& out) const {
+  const Vector c = c_.of(at.y), tension = tension_and_stiffness(at.t, c);
+  const Vector force = muscle_->energy->evaluate({c, of(tension)}).gradient;
+  c_.of(out.values) += force;
+  out.forces += force.norm();
+}
+
+void RestingMuscle::add_tangent(const At& at, double, polyaffine::Tangent& out) const {
+  const Vector c = c_.of(at.y), tension = tension_and_stiffness(at.t, c);
+  muscle_->energy->add_tangent({c, of(tension)}, out.field);
+}
+
+void RestingMuscle::add_tables(std::vector<const polyaffine::FieldTable*>& out) const {
+  out.push_back(&muscle_->energy->table());
+}
+
+}  // namespace cardiac
