@@ -16,15 +16,33 @@ namespace {
 
 constexpr int kMost = kMostSarcomereStates;
 using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMost, kMost>;
+constexpr int kSerialPoints = 4096;  // that one thread computes sooner than it wakes another
 using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMost, 1>;
 
+template <class Work>
+void for_each(bool parallel, int count, const Work& work) {
+  if (parallel)
+    polyaffine::parallel_for(0, count, work);
+  else
+    for (int k = 0; k < count; ++k) work(k);
+}
+
 // The displacement gradient of coefficients at all points, 9 × points, without the identity.
-Matrix gradient(const polyaffine::FieldTable& table, const Vector& c) {
-  Matrix out = Matrix::Zero(9, table.num_points());
-  polyaffine::parallel_for(0, static_cast<int>(table.blocks.size()), [&](int k) {
-    const polyaffine::PointBlock& block = table.blocks[static_cast<std::size_t>(k)];
-    polyaffine::add_field(block, polyaffine::gather(block, c), out.col(block.first).data());
-  });
+Matrix gradient(const polyaffine::FieldEnergy& energy, const Vector& c) {
+  Matrix out(9, energy.table().num_points());
+  const auto& blocks = energy.blocks();
+  const auto work = [&](int k) {
+    const polyaffine::PackedBlock& block = blocks[static_cast<std::size_t>(k)];
+    thread_local std::vector<polyaffine::Mat3Pack> M;
+    M.resize(static_cast<std::size_t>(block.num_packs()));
+    block.field(c, false, block.all(), M.data());
+    for (int pack = 0; pack < block.num_packs(); ++pack) {
+      const auto [point, lanes] = block.points(pack);
+      for (int lane = 0; lane < lanes; ++lane)
+        for (int i = 0; i < 9; ++i) out(i, point + lane) = M[static_cast<std::size_t>(pack)].m[i][lane];
+    }
+  };
+  for_each(energy.table().num_points() > kSerialPoints, static_cast<int>(blocks.size()), work);
   return out;
 }
 
@@ -35,14 +53,9 @@ polyaffine::PointState of(const Vector& values) {
 template <class Work>
 void for_points(int count, const Work& work) {
   constexpr int kChunk = 256;
-  const int chunks = (count + kChunk - 1) / kChunk;
-  const auto run = [&](int k) {
+  for_each(count > kSerialPoints, (count + kChunk - 1) / kChunk, [&](int k) {
     for (int q = k * kChunk; q < std::min(count, (k + 1) * kChunk); ++q) work(q);
-  };
-  if (chunks > 8)
-    polyaffine::parallel_for(0, chunks, run);
-  else
-    for (int k = 0; k < chunks; ++k) run(k);
+  });
 }
 
 }  // namespace
@@ -55,10 +68,9 @@ Vector Muscle::drive(double time_ms) const {
 }
 
 FibreStretch fibre_stretch(const Muscle& muscle, const Vector& c, const Vector* rate) {
-  const auto& table = muscle.energy->table();
-  Matrix F = gradient(table, c);
+  const Matrix F = gradient(*muscle.energy, c);
   Matrix F_rate;
-  if (rate) F_rate = gradient(table, *rate);
+  if (rate) F_rate = gradient(*muscle.energy, *rate);
   FibreStretch out;
   const int n = muscle.num_points();
   out.stretch.resize(n);
@@ -146,7 +158,7 @@ class MuscleTerm::EliminatedStates : public polyaffine::Elimination {
     field.segment(of_.c_.first, of_.c_.size) -= muscle.energy->evaluate({c_, of(tension)}).gradient;
   }
   void recover(const Vector& rhs, Vector& step) const override {
-    const Matrix change = gradient(of_.muscle_->energy->table(), of_.c_.of(step));
+    const Matrix change = gradient(*of_.muscle_->energy, of_.c_.of(step));
     for_points(of_.muscle_->num_points(), [&](int q) {
       step.segment(of_.z_.first + n_ * q, n_) =
           apart(rhs, q) + by_stretch_.col(q) * by_F_.col(q).dot(change.col(q));

@@ -269,7 +269,7 @@ Table time_table() {
   table
       .key("heart_rate_bpm", &Time::beat_ms,
            {.unit = "1/min",
-            .range = {20, 300},
+            .range = {20, 800},
             .meaning = "heart rate; a beat lasts 60000/heart_rate_bpm ms, with a circulation and without",
             .source = "Regazzoni 2022: 75",
             .also = {in_time()}},

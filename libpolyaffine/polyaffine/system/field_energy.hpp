@@ -55,6 +55,8 @@ class FieldEnergy {
   const FieldTable& table() const { return table_; }
   const std::optional<PressureSpace>& pressure_space() const { return pressure_; }
   bool feels_rate() const { return !viscous_.empty(); }
+  /// The blocks of the table as they are summed over.
+  const std::vector<PackedBlock>& blocks() const { return packed_; }
 
   /// Value and gradient; when min_det ≤ 0 in a wall the numbers are not to be used.
   EnergyValue evaluate(const Motion& motion) const;
