@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include <cardiac/protocol/describe.hpp>
+#include <cardiac/protocol/names.hpp>
 #include <cardiac/protocol/plan.hpp>
 #include <cardiac/report/figures.hpp>
 #include <cardiac/report/haemodynamics_text.hpp>
@@ -218,6 +219,11 @@ void run(RunOptions options) {
   Protocol protocol = options.model.empty() ? load_input(given_or_example(options.protocol),
                                                          options.overrides, {.insist = options.force})
                                             : load_model(options.model, options.overrides);
+  if (options.verify && protocol.contraction && protocol.contraction->feels_fibre())
+    throw polyaffine::InputError(
+        "--verify: found contraction.model = " + protocol::name_of(protocol.contraction->model) +
+        ", whose tension depends on how the wall has moved, and --verify solves equilibria; expected a run "
+        "with --set reduction.method=fem beside this one");
   if (protocol.output.mesh_series && !writes_mesh_series()) {
     protocol.output.mesh_series = false;
     protocol.warnings.push_back(

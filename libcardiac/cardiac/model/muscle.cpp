@@ -58,6 +58,12 @@ void for_points(int count, const Work& work) {
   });
 }
 
+// τ = T/λ and its change with λ, from T and dT/dλ.
+void set_stress(int q, double stretch, double tension, double by_stretch, Vector& stress) {
+  stress[q] = tension / stretch;
+  stress[stress.size() / 2 + q] = (by_stretch - tension / stretch) / stretch;
+}
+
 }  // namespace
 
 Vector Muscle::drive(double time_ms) const {
@@ -113,7 +119,7 @@ void MuscleTerm::add_residual(const At& at, polyaffine::Residual& out) const {
   for_points(n, [&](int q) {
     SarcomereResponse r;
     muscle_->sarcomere->respond({drive[q], fibre.stretch[q], fibre.rate[q]}, states(at.y, q), false, r);
-    tension[q] = muscle_->scale[q] * r.tension_kPa;
+    tension[q] = muscle_->scale[q] * r.tension_kPa / fibre.stretch[q];
     for (int i = 0; i < num_states_; ++i) {
       const int k = z_.first + num_states_ * q + i;
       out.values[k] += (at.rate ? (*at.rate)[k] : 0) - r.rates[i];
@@ -126,8 +132,8 @@ void MuscleTerm::add_residual(const At& at, polyaffine::Residual& out) const {
 
 class MuscleTerm::EliminatedStates : public polyaffine::Elimination {
  public:
-  EliminatedStates(const MuscleTerm& of, Vector c, Matrix by_F)
-      : of_(of), n_(of.num_states_), c_(std::move(c)), by_F_(std::move(by_F)) {
+  EliminatedStates(const MuscleTerm& of, Vector c, FibreStretch fibre)
+      : of_(of), n_(of.num_states_), c_(std::move(c)), fibre_(std::move(fibre)) {
     const int points = of.muscle_->num_points();
     inverse_.resize(n_ * n_, points);
     by_stretch_.resize(n_, points);
@@ -154,14 +160,16 @@ class MuscleTerm::EliminatedStates : public polyaffine::Elimination {
     const Muscle& muscle = *of_.muscle_;
     const int points = muscle.num_points();
     Vector tension = Vector::Zero(2 * points);
-    for_points(points, [&](int q) { tension[q] = muscle.scale[q] * tension_by_.col(q).dot(apart(rhs, q)); });
+    for_points(points, [&](int q) {
+      tension[q] = muscle.scale[q] / fibre_.stretch[q] * tension_by_.col(q).dot(apart(rhs, q));
+    });
     field.segment(of_.c_.first, of_.c_.size) -= muscle.energy->evaluate({c_, of(tension)}).gradient;
   }
   void recover(const Vector& rhs, Vector& step) const override {
     const Matrix change = gradient(*of_.muscle_->energy, of_.c_.of(step));
     for_points(of_.muscle_->num_points(), [&](int q) {
       step.segment(of_.z_.first + n_ * q, n_) =
-          apart(rhs, q) + by_stretch_.col(q) * by_F_.col(q).dot(change.col(q));
+          apart(rhs, q) + by_stretch_.col(q) * fibre_.by_F.col(q).dot(change.col(q));
     });
   }
 
@@ -174,24 +182,24 @@ class MuscleTerm::EliminatedStates : public polyaffine::Elimination {
   const MuscleTerm& of_;
   int n_;
   Vector c_;
-  Matrix by_F_, inverse_, by_stretch_, tension_by_;  // a column for each point
+  FibreStretch fibre_;
+  Matrix inverse_, by_stretch_, tension_by_;  // a column for each point
 };
 
 void MuscleTerm::add_tangent(const At& at, double alpha, polyaffine::Tangent& out) const {
   const Vector c = c_.of(at.y), rate = at.rate_of(c_);
-  FibreStretch fibre = fibre_stretch(*muscle_, c, &rate);
+  const FibreStretch fibre = fibre_stretch(*muscle_, c, &rate);
   const Vector drive = muscle_->drive(at.t);
   const int n = muscle_->num_points();
-  auto eliminated = std::make_unique<EliminatedStates>(*this, c, std::move(fibre.by_F));
-  Vector tension(2 * n);
+  auto eliminated = std::make_unique<EliminatedStates>(*this, c, fibre);
+  Vector stress(2 * n);
   for_points(n, [&](int q) {
     SarcomereResponse r;
     muscle_->sarcomere->respond({drive[q], fibre.stretch[q], fibre.rate[q]}, states(at.y, q), true, r);
     const double along = r.by_stretch + alpha * r.by_rate + eliminated->set(q, r, alpha);
-    tension[q] = muscle_->scale[q] * r.tension_kPa;
-    tension[n + q] = muscle_->scale[q] * along;
+    set_stress(q, fibre.stretch[q], muscle_->scale[q] * r.tension_kPa, muscle_->scale[q] * along, stress);
   });
-  muscle_->energy->add_tangent({c, of(tension)}, out.field);
+  muscle_->energy->add_tangent({c, of(stress)}, out.field);
   out.eliminations.push_back(std::move(eliminated));
 }
 
@@ -216,7 +224,7 @@ Vector MuscleTerm::tension(const At& at) const {
   for_points(muscle_->num_points(), [&](int q) {
     SarcomereResponse r;
     muscle_->sarcomere->respond({drive[q], fibre.stretch[q], fibre.rate[q]}, states(at.y, q), false, r);
-    out[q] = muscle_->scale[q] * r.tension_kPa;
+    out[q] = muscle_->scale[q] * r.tension_kPa / fibre.stretch[q];
   });
   return out;
 }
@@ -235,8 +243,8 @@ Vector RestingMuscle::tension_and_stiffness(double t, const Vector& c) const {
   Vector out(2 * n);
   for_points(n, [&](int q) {
     const RestingTension r = resting_tension(*muscle_->sarcomere, drive_[q], fibre.stretch[q]);
-    out[q] = share * muscle_->scale[q] * r.tension_kPa;
-    out[n + q] = share * muscle_->scale[q] * r.by_stretch;
+    const double scale = share * muscle_->scale[q];
+    set_stress(q, fibre.stretch[q], scale * r.tension_kPa, scale * r.by_stretch, out);
   });
   return out;
 }

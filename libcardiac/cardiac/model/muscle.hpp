@@ -13,7 +13,7 @@ namespace cardiac {
 /// Muscle whose tension feels its fibres: a sarcomere at each integration point of the wall.
 struct Muscle {
   std::shared_ptr<const SarcomereModel> sarcomere;
-  std::shared_ptr<const polyaffine::FieldEnergy> energy;  ///< one law, FibreTension
+  std::shared_ptr<const polyaffine::FieldEnergy> energy;  ///< one law, ActiveStress
   polyaffine::Points fibres;                              ///< f of each point, 3 × points
   polyaffine::Vector delay_ms, scale;                     ///< excitation, and factor on the tension
 
@@ -31,10 +31,11 @@ FibreStretch fibre_stretch(const Muscle& muscle, const polyaffine::Vector& c,
                            const polyaffine::Vector* rate = nullptr);
 
 /// The muscle in time. The states z of its points are unknowns of a block "contraction" of their own that it
-/// adds to a layout, with the residual ż − g(d(t), λ, λ̇, z); the field feels Σ_q w_q T ∂λ/∂c. They are solved
+/// adds to a layout, with the residual ż − g(d(t), λ, λ̇, z); the field feels the second
+/// Piola–Kirchhoff stress τ = T/λ along the fibre (ActiveStress). They are solved
 /// apart, point by point: with M = α − ∂g/∂z and h = ∂g/∂λ + α ∂g/∂λ̇,
-///   δz = M⁻¹ (ρ_z + h δλ),  κ = ∂T/∂λ + α ∂T/∂λ̇ + ∂T/∂z M⁻¹ h
-/// is the stiffness along the fibre that the tangent sees, so that stretch and its rate are implicit in a
+///   δz = M⁻¹ (ρ_z + h δλ),  dT/dλ = ∂T/∂λ + α ∂T/∂λ̇ + ∂T/∂z M⁻¹ h
+/// is what the tangent sees, so that stretch and its rate are implicit in a
 /// step of any length. How λ̇ changes with F at a fixed Ḟ is left out of the tangent, as it vanishes with the
 /// step.
 class MuscleTerm : public polyaffine::Term {
@@ -47,7 +48,7 @@ class MuscleTerm : public polyaffine::Term {
 
   /// States that last at the drive of a time, the wall being held.
   void rest(double time_ms, polyaffine::Vector& y) const;
-  /// T of each point, kPa, with its factor.
+  /// τ = T/λ of each point, kPa, with its factor.
   polyaffine::Vector tension(const polyaffine::At& at) const;
 
  private:

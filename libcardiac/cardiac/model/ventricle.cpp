@@ -6,7 +6,7 @@
 #include <cardiac/model/supports.hpp>
 #include <cardiac/model/vertex_displacement.hpp>
 #include <cardiac/scene/contraction_time.hpp>
-#include <cardiac/tissue/fibre_tension.hpp>
+#include <cardiac/tissue/active_stress.hpp>
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/kinematics/lagrange.hpp>
 #include <polyaffine/material/signed_volume.hpp>
@@ -108,7 +108,7 @@ std::shared_ptr<const Muscle> build_muscle(const Anatomy& anatomy, const Scene& 
                                            const Discretisation& d, const FieldEnergy& wall,
                                            const ContractionField& field) {
   const FibreAxes axes = fibres_at(anatomy, *scene.fibres, d.points.tet, d.points.barycentric);
-  auto law = std::make_shared<FibreTension>(axes, scene.contraction->cross_fibre_fraction);
+  auto law = std::make_shared<ActiveStress>(axes, scene.contraction->cross_fibre_fraction);
   return std::make_shared<const Muscle>(Muscle{
       sarcomere_model(*scene.contraction, scene.time),
       std::make_shared<FieldEnergy>(wall.table(), std::vector<std::shared_ptr<const polyaffine::Law>>{law}),

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <utility>
 
 #include <cardiac/tissue/active_stress.hpp>
@@ -31,6 +32,29 @@ void ActiveStress::respond(PackPoints points, const PackMotion& at, bool tangent
   }
   const Pack energy = 0.5 * (contract(right_cauchy_green(f), S) - tension - 2 * cross);
   add_constant_stress(f, energy, S, tangent, r);
+  if (tangent && tension_kPa.size() == 2 * static_cast<std::size_t>(axes_.size())) add_change(points, at, r);
+}
+
+// Of the tension with the stretch, in the tangent.
+void ActiveStress::add_change(PackPoints points, const PackMotion& at, PackResponse& r) const {
+  const Mat3Pack& F = at.F;
+  const Mat3Pack R = axes_.at(points);
+  const Pack change = gather(at.state.data() + axes_.size() + points.point, 1, points.lanes);
+  Pack moved[3], square = broadcast(0);  // F f
+  for (int i = 0; i < 3; ++i) {
+    moved[i] = F(i, 0) * R(0, 0) + F(i, 1) * R(1, 0) + F(i, 2) * R(2, 0);
+    square += moved[i] * moved[i];
+  }
+  Pack half;  // κ/2λ
+  for (int lane = 0; lane < kLanes; ++lane) half[lane] = 0.5 * change[lane] / std::sqrt(square[lane]);
+  Pack along[9], stress[9];  // F f⊗f = λ ∂λ/∂F, and F S/τ
+  for (int J = 0; J < 3; ++J)
+    for (int i = 0; i < 3; ++i) {
+      along[i + 3 * J] = moved[i] * R(J, 0);
+      stress[i + 3 * J] = (1 - cross_fibre_fraction_) * along[i + 3 * J] + cross_fibre_fraction_ * F(i, J);
+    }
+  for (int p = 0; p < 9; ++p)
+    for (int q = 0; q <= p; ++q) r.A[p][q] += half * (along[p] * stress[q] + stress[p] * along[q]);
 }
 
 }  // namespace cardiac

@@ -123,6 +123,9 @@ bool NestedRuleTraining::add(const FullState& state, double weight) {
   for (std::size_t k = 0; k < at.ventricle.cavities.size(); ++k)
     at.ventricle.cavities[k].volume->add_tangent({at.c}, *at.tangent,
                                                  -at.load.pressures_kPa[static_cast<Eigen::Index>(k)]);
+  polyaffine::System held = wall_system(at.ventricle);
+  polyaffine::Tangent springs{held.layout, *at.tangent, {}, {}, {}};
+  for (const auto& support : at.ventricle.supports) support->add_tangent({1, at.c}, 0, springs);
   if (!(at.size > 0) || !at.tangent->factorise() || !at.tangent->positive_definite()) return false;
   add_wall(at, state);
   for (std::size_t k = 0; k < cavities_.size(); ++k) add_cavity(at, k);

@@ -194,6 +194,8 @@ std::string tuned_key(const Anatomy& anatomy, const Scene& scene) {
   for (const auto& r : scene.regions)
     key["regions"].push_back(
         {r.segments, r.stiffness_factor, r.tension_factor, r.activation_delay_ms, r.border_width_percent});
+  if (const scene::Boundary& b = scene.boundary; b.base_moves())
+    key["base"] = {b.base_normal_stiffness_kPa_per_mm, b.base_inplane_stiffness_kPa_per_mm};
   key["time"] = {scene.time.beat_ms, scene.time.duration_ms};
   key["tuning"] = {scene.reduction.accuracy_percent, scene.reduction.affine_frames};
   return structure_key(anatomy, scene) + ' ' + rule_key(anatomy, scene) + ' ' + key.dump();

@@ -32,7 +32,10 @@ class Support : public Term {
   void add_tables(std::vector<const FieldTable*>& out) const override;
 
  private:
+  EnergyValue force(const Vector& u) const;
+
   FieldEnergy unit_;  // of springs of stiffness 1 kPa/mm: both forces are linear in what they depend on
+  Matrix matrix_;     // of them, where it is smaller than the table; else empty
   double stiffness_, damping_;
   Unknowns c_;
 };

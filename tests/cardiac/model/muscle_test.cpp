@@ -8,7 +8,7 @@
 #include <cardiac/contraction/bestel_full_2001.hpp>
 #include <cardiac/contraction/land_2017.hpp>
 #include <cardiac/contraction/twitch.hpp>
-#include <cardiac/tissue/fibre_tension.hpp>
+#include <cardiac/tissue/active_stress.hpp>
 #include <polyaffine/core/monotone_cubic.hpp>
 #include <polyaffine/linear/linear_system.hpp>
 #include <polyaffine/solve/dae.hpp>
@@ -30,7 +30,7 @@ struct Strip : polyaffine::testing::BlockBody {
     axes.colwise() = polyaffine::Mat3::Identity().reshaped();
     muscle = std::make_shared<Muscle>(Muscle{
         std::move(sarcomere),
-        std::make_shared<polyaffine::FieldEnergy>(table, Laws{std::make_shared<FibreTension>(axes, cross)}),
+        std::make_shared<polyaffine::FieldEnergy>(table, Laws{std::make_shared<ActiveStress>(axes, cross)}),
         axes.topRows<3>(), Vector::LinSpaced(table.num_points(), 0, 20),
         Vector::LinSpaced(table.num_points(), 1, 0.5)});
   }
