@@ -28,8 +28,8 @@ Twitch moved_twitch(const SarcomereModel& model, const StretchCurve& stretch,
     respond(t, state.data());
     std::copy_n(r.rates.begin(), n, out.data());
   };
-  // The drive may rise within some ms from nothing, which longer steps would miss.
-  constexpr double kMaxStep_ms = 2;
+  // The drive may rise within a few ms from nothing, which longer steps would miss.
+  constexpr double kMaxStep_ms = 0.5;
   const polyaffine::OdeSolution solution = polyaffine::solve_ode(
       rates, times_ms.front(), Eigen::Map<const Vector>(start.data(), n),
       Eigen::Map<const Vector>(times_ms.data(), std::ssize(times_ms)),

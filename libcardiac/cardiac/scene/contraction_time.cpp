@@ -7,6 +7,7 @@
 #include <cardiac/contraction/bestel_full_2001.hpp>
 #include <cardiac/contraction/land_2017.hpp>
 #include <cardiac/contraction/twitch.hpp>
+#include <polyaffine/core/error.hpp>
 
 namespace cardiac {
 namespace {
@@ -73,7 +74,12 @@ Scene with_twitch(const Scene& scene) {
   if (!scene.contraction || !scene.contraction->feels_fibre()) return scene;
   const auto model = sarcomere_model(*scene.contraction, scene.time);
   constexpr int kSamples = 400;
+  constexpr double kLeastTension_kPa = 1e-6;
   Twitch twitch = isometric_twitch(*model, 1, kSamples);
+  if (!(twitch.peak_kPa() > kLeastTension_kPa))
+    throw polyaffine::InputError("contraction: a fibre that is held makes no tension (" +
+                                 std::to_string(twitch.peak_kPa()) +
+                                 " kPa at most); expected more calcium, or a longer activation");
   for (double& tension : twitch.tension_kPa) tension = std::max(0.0, tension);
   Scene out = scene;
   out.contraction->model = scene::ContractionModel::table;

@@ -86,6 +86,10 @@ std::vector<RunKind> kinds() {
   const std::string output = "[output]\ninterval_ms = 1\n";
   return {
       {"beat", affine + active + region + circulation + output},
+      {"sarcomeres",
+       affine + "[fibres]\n[activation]\nonset_ms = 0\n[contraction]\nmodel = \"land_2017\"\n" + circulation,
+       {"contraction"}},
+      {"bridges", affine + active + "model = \"bestel_clement_sorine\"\n" + circulation, {"contraction"}},
       {"wave",
        "[reduction]\nenrichment = []\n[tissue]\nlaw = \"holzapfel_ogden\"\n"
        "[fibres]\n[activation]\nmode = \"sites\"\nonset_ms = 0\nsite_segments = "
@@ -121,23 +125,15 @@ std::vector<RunKind> kinds() {
 /// Not tried: what is read before or written after what is computed here, what must fit the mesh (or needs
 /// several openings of it), what is a kind of its own, and what tells how many beats there are.
 bool elsewhere(const std::string& path) {
-  static const std::set<std::string> paths{"anatomy.scheme",
-                                           "anatomy.mitral_point",
-                                           "output.frames",
-                                           "reduction.method",
-                                           "fibres.source",
-                                           "activation.mode",
-                                           "output.tables",
-                                           "output.figures",
-                                           "output.mesh_series",
-                                           "region.name",
-                                           "time.max_beats",
-                                           "time.limit_cycle_tolerance_percent",
-                                           "contraction.model",
-                                           "circulation.loop",
-                                           "cavities.pressure_file",
-                                           "cavities.volume_file",
-                                           "boundary.epicardial_weight_array"};
+  static const std::set<std::string> paths{"anatomy.scheme",       "anatomy.mitral_point",
+                                           "output.frames",        "reduction.method",
+                                           "fibres.source",        "activation.mode",
+                                           "output.tables",        "output.figures",
+                                           "output.mesh_series",   "region.name",
+                                           "time.max_beats",       "time.limit_cycle_tolerance_percent",
+                                           "contraction.model",    "contraction.calcium_file",
+                                           "circulation.loop",     "cavities.pressure_file",
+                                           "cavities.volume_file", "boundary.epicardial_weight_array"};
   return path.starts_with("mesh.") || paths.contains(path);
 }
 
@@ -156,6 +152,8 @@ std::string other_value(const std::string& path, const Key& key, const Json& val
                                                          {"tissue.law", "mooney_rivlin"},
                                                          {"activation.site_segments", "[9]"},
                                                          {"activation.sites_mm", "[[7.0, 0.0, 0.0]]"},
+                                                         {"contraction.calcium_decay_ms", "60.0"},
+                                                         {"contraction.calcium_rise_ms", "15.0"},
                                                          {"time.max_step_ms", "0.1"},
                                                          {"time.heart_rate_bpm", "240.0"},
                                                          {"region.segments", "[8]"}};
