@@ -26,6 +26,32 @@ struct SegmentFrame {
   double misfit = 0;  ///< share of the motion that no affine map holds; NaN without motion
 };
 
+/// Mechanics of a segment: means over its points, weighted by their volume in the mesh (SegmentGauge of the
+/// mechanics: segment_mechanics). NaN where it does not apply or the segment has no point.
+struct SegmentMechanics {
+  double fibre_strain = 0;       ///< stretch along the fibre since end diastole, minus one
+  double fibre_stress_kPa = 0;   ///< Cauchy stress along the fibre, of all that the wall consists of
+  double active_stress_kPa = 0;  ///< the part of it that is active
+  double mean_stress_kPa = 0;    ///< a third of the trace of the Cauchy stress
+  double von_mises_kPa = 0;      ///< of the Cauchy stress
+  double work_mJ = 0;            ///< done on its surroundings since the begin of the path
+  double active_work_mJ = 0;     ///< done by its active tension
+};
+
+/// Energy of a beat: the work of the active tension is what is done on the blood, what the wall, its springs
+/// and its motion store, and what viscosity and dashpots lose. Every number is computed on its own.
+struct EnergyBalance {
+  double active_mJ = 0;                                    ///< work of the active tension
+  double cavities_mJ = 0;                                  ///< work on the blood, −Σ ∫ p dV
+  double elastic_mJ = 0, supports_mJ = 0, kinetic_mJ = 0;  ///< change of what is stored
+  double viscosity_mJ = 0, dashpots_mJ = 0;                ///< lost
+
+  /// What is missing: active work less all others.
+  double residual_mJ() const;
+  /// |residual| over the larger of |active work| and |work on the blood|; NaN where both are zero.
+  double percent() const;
+};
+
 /// A control node at end diastole, mm, and its axes (columns longitudinal, circumferential, radial).
 struct SegmentNode {
   polyaffine::Vec3 position = polyaffine::Vec3::Zero();
@@ -68,6 +94,7 @@ struct Instant {
   std::vector<SegmentFrame> frames;
   std::vector<GlobalStrain> global;              ///< of BeatResult::ventricles
   std::vector<polyaffine::Vec3> frame_unknowns;  ///< of BeatResult::frame_functions, mm
+  std::vector<SegmentMechanics> mechanics;       ///< empty unless output.mechanics asks for it
   double min_det_F = 1;                          ///< smallest det F at the points of strain, against the mesh
 };
 
@@ -175,6 +202,7 @@ struct BeatResult {
   std::vector<FlowBalance> balances;         ///< of it
   GlobalStrain strain;                       ///< of the left ventricle at end systole
   std::optional<GlobalStrain> right_strain;  ///< of the right free wall at the same time
+  std::optional<EnergyBalance> energy;       ///< of the last beat; none without contraction
   double min_det_F = 1, max_det_F = 1;
   std::vector<EstimatedError> estimated_errors;  ///< of a tuned model
   std::vector<VerificationInstant> verification;

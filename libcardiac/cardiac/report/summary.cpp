@@ -89,6 +89,13 @@ Json timing_of(const BeatResult& r) {
           {"rest_s", number(r.wall_solve_s - known)}};
 }
 
+Json energy_json(const EnergyBalance& e) {
+  return {{"active_mJ", number(e.active_mJ)},     {"cavities_mJ", number(e.cavities_mJ)},
+          {"elastic_mJ", number(e.elastic_mJ)},   {"supports_mJ", number(e.supports_mJ)},
+          {"kinetic_mJ", number(e.kinetic_mJ)},   {"viscosity_mJ", number(e.viscosity_mJ)},
+          {"dashpots_mJ", number(e.dashpots_mJ)}, {"residual_mJ", number(e.residual_mJ())}};
+}
+
 Json global_json(const GlobalStrain& strain) {
   Json json;
   for (const GlobalColumn& quantity : kGlobalStrain) json[quantity.key] = number(quantity.value(strain));
@@ -165,6 +172,8 @@ std::string summary_text(const BeatResult& r, const RunInfo& info) {
                {"ventricles", ventricles},
                {"haemodynamics", haemodynamics},
                {"flow_balances", balances_json(r.balances)},
+               {"energy_balance_percent", r.energy ? number(r.energy->percent()) : Json(nullptr)},
+               {"energy", r.energy ? energy_json(*r.energy) : Json(nullptr)},
                {"strain", global_json(r.strain)},
                {"min_det_F", number(r.min_det_F)},
                {"max_det_F", number(r.max_det_F)}};

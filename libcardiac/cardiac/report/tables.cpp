@@ -147,6 +147,20 @@ std::string frames_table(const BeatResult& result) {
   return csv.text();
 }
 
+std::string mechanics_table(const BeatResult& result) {
+  CsvWriter csv(
+      "time_ms,segment,name,fibre_strain,fibre_stress_kPa,active_stress_kPa,mean_stress_kPa,von_mises_kPa,"
+      "work_mJ,active_work_mJ");
+  for (const Instant& instant : result.instants)
+    for (size_t i = 0; i < instant.mechanics.size(); ++i) {
+      const SegmentMechanics& m = instant.mechanics[i];
+      csv << instant.time_ms << result.segments.at(i) << m.fibre_strain << m.fibre_stress_kPa
+          << m.active_stress_kPa << m.mean_stress_kPa << m.von_mises_kPa << m.work_mJ << m.active_work_mJ;
+      csv.end_row();
+    }
+  return csv.text();
+}
+
 std::string cavity_table(const BeatResult& result) {
   CsvWriter csv("time_ms,ventricle,volume_mL,pressure_mmHg,phase");
   for (const VentricleSummary& ventricle : result.ventricles)
@@ -208,6 +222,8 @@ void write_tables(const BeatResult& result, const RunInfo& info, const std::file
   polyaffine::write_atomically(out / "control_nodes.csv", nodes_table(result));
   polyaffine::write_atomically(out / "global_strain.csv", global_strain_table(result));
   if (!result.frame_functions.empty()) polyaffine::write_atomically(out / "frames.csv", frames_table(result));
+  if (!result.instants.empty() && !result.instants.front().mechanics.empty())
+    polyaffine::write_atomically(out / "mechanics.csv", mechanics_table(result));
   polyaffine::write_atomically(out / "cavity.csv", cavity_table(result));
   if (!result.circulation.columns.empty())
     polyaffine::write_atomically(out / "circulation.csv", circulation_text(result));

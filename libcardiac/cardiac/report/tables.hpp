@@ -36,6 +36,9 @@ std::string global_strain_table(const BeatResult& result);
 /// frame it belongs to, the axes of its coefficient, its function of the frame's coordinates and the
 /// coefficient (mm), with all digits. Against the mesh, not end diastole.
 std::string frames_table(const BeatResult& result);
+/// mechanics.csv: a row per output time and segment, definitions at segment_mechanics(): fibre strain since
+/// end diastole, Cauchy stresses (kPa) and work (mJ).
+std::string mechanics_table(const BeatResult& result);
 /// cavity.csv: a row per sample of each ventricle.
 std::string cavity_table(const BeatResult& result);
 
@@ -59,7 +62,7 @@ CardiacTimes cardiac_times(const BeatResult& result);
 bool has_systole(const BeatResult& result);
 
 /// Writes strain.csv, strain_peaks.csv, affine.csv, control_nodes.csv, global_strain.csv, cavity.csv,
-/// summary.json, circulation.csv (of a beat) and, where the result has the unknowns of the frames, frames.csv
+/// summary.json, circulation.csv (of a beat) and, where the result has them, frames.csv and mechanics.csv
 /// into the folder `out` (made where missing), each file whole or not at all. Errors as of
 /// polyaffine::write_atomically.
 void write_tables(const BeatResult& result, const RunInfo& info, const std::filesystem::path& out);

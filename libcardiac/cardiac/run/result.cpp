@@ -6,8 +6,10 @@
 #include <cardiac/core/units.hpp>
 #include <cardiac/reduction/axes_check.hpp>
 #include <cardiac/reduction/frame_functions.hpp>
+#include <cardiac/run/energy_balance.hpp>
 #include <cardiac/run/haemodynamics.hpp>
 #include <cardiac/run/motion.hpp>
+#include <cardiac/run/segment_mechanics.hpp>
 
 namespace cardiac {
 
@@ -80,6 +82,10 @@ void add_motion(const Ventricle& ventricle, const std::vector<ControlNode>& node
     for (std::size_t k = 0; k < out.frame_functions.size(); ++k)
       out.instants[i].frame_unknowns.emplace_back(
           path.outputs[i].c.segment<3>(3 * static_cast<Eigen::Index>(k)));
+  }
+  if (scene.output.mechanics) {
+    auto mechanics = segment_mechanics(ventricle, scene, path, key.ed.c);
+    for (std::size_t i = 0; i < out.instants.size(); ++i) out.instants[i].mechanics = std::move(mechanics[i]);
   }
   const Instant es = motion.instants({key.es}).front();
   out.strain = es.global.front();
@@ -155,6 +161,7 @@ BeatResult describe_path(const Ventricle& ventricle, const std::vector<ControlNo
     out.circulation = circulation_table(path, scene);
     out.balances = flow_balances(path, scene);
   }
+  out.energy = energy_balance(ventricle, scene.time, path);
   add_motion(ventricle, nodes, scene, path, key, out);
   warn_of_crushing(d.sparse, out);
   return out;

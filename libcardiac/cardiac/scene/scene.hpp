@@ -204,7 +204,7 @@ struct Time {
 
 struct Output {
   double interval_ms = 10;
-  bool tables = true, figures = true, mesh_series = true, frames = false;
+  bool tables = true, figures = true, mesh_series = true, frames = false, mechanics = false;
 };
 
 /// Segments that differ from the rest: scar, ischaemia, late activation.

@@ -20,6 +20,7 @@ class ActiveStress : public polyaffine::Law {
   /// Throws ComputationError when `tension_kPa` has none for one of the points.
   void respond(polyaffine::PackPoints points, const polyaffine::PackMotion& at, bool tangent,
                polyaffine::PackResponse& r) const override;
+  bool feels_state() const override { return true; }
 
  private:
   void add_change(polyaffine::PackPoints points, const polyaffine::PackMotion& at,

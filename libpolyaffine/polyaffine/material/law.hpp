@@ -18,6 +18,9 @@ class Law {
   /// Whether P depends on Ḟ; only such laws are shown it. They have no energy and add to a response that is
   /// not cleared.
   virtual bool feels_rate() const { return false; }
+  /// Whether P comes from the state of the points (an active tension): what such a law gives is work that is
+  /// done on the body, not energy that it stores.
+  virtual bool feels_state() const { return false; }
 
   /// Adds W (1 number a point), P (9) and A (81, the 9×9 matrix ∂P_i/∂F_j) for `count` points from index
   /// `first` on. Matrices are stored column-major, one point after the other; the arrays start at the first

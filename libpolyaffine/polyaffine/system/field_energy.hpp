@@ -54,6 +54,9 @@ class FieldEnergy {
 
   const FieldTable& table() const { return table_; }
   const std::optional<PressureSpace>& pressure_space() const { return pressure_; }
+  /// Those that do not feel the rate, and those that do.
+  const std::vector<std::shared_ptr<const Law>>& laws() const { return laws_; }
+  const std::vector<std::shared_ptr<const Law>>& viscous_laws() const { return viscous_; }
   bool feels_rate() const { return !viscous_.empty(); }
   /// The blocks of the table as they are summed over.
   const std::vector<PackedBlock>& blocks() const { return packed_; }

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include <polyaffine/system/point_stress.hpp>
+
 namespace polyaffine {
 namespace {
 
@@ -88,6 +90,17 @@ void FieldTerm::add_tangent(const At& at, double alpha, Tangent& out) const {
   if (pressures_)
     out.eliminations.push_back(
         std::make_unique<EliminatedPressures>(energy_, s, c_, *pressures_, std::move(D)));
+}
+
+double FieldTerm::stored_energy(const At& at) const {
+  return scale_ ? 0 : elastic_energy(*energy_, c_.of(at.y));
+}
+
+double FieldTerm::dissipation(const At& at) const {
+  if (scale_ || !at.rate || !energy_->feels_rate()) return 0;
+  const Matrix F = evaluate_field(energy_->table(), c_.of(at.y));
+  const Matrix rate = field_rate(energy_->table(), c_.of(*at.rate));
+  return work(energy_->table().weights, viscous_stress(*energy_, F, rate), rate);
 }
 
 std::shared_ptr<const Term> FieldTerm::mixed(StateLayout& layout) const {

@@ -25,6 +25,10 @@ class FieldTerm : public Term {
 
   void add_residual(const At& at, Residual& out) const override;
   void add_tangent(const At& at, double alpha, Tangent& out) const override;
+  /// Of its laws that feel neither state nor rate, with the pressure space; and of those that feel the rate
+  /// (PointStress). An energy with a scale is a load, which stores and loses nothing.
+  double stored_energy(const At& at) const override;
+  double dissipation(const At& at) const override;
   std::shared_ptr<const Term> mixed(StateLayout& layout) const override;
   void start(Vector& y, Vector* rate = nullptr) const override;
   std::optional<double> strain(const Vector& step) const override;

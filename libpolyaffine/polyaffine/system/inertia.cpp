@@ -45,6 +45,10 @@ void Inertia::add_tangent(const At& at, double alpha, Tangent& out) const {
   out.eliminations.push_back(std::make_unique<EliminatedVelocity>(*this, alpha));
 }
 
+double Inertia::stored_energy(const At& at) const {
+  return at.rate ? mass_.evaluate({c_.of(*at.rate)}).value : 0;
+}
+
 void Inertia::add_parameter_derivative(const std::string& parameter, const At& at, Vector& out) const {
   if (parameter != "density") return Term::add_parameter_derivative(parameter, at, out);
   c_.of(out) += momentum(at.rate_of(v_)) / density_;

@@ -18,6 +18,8 @@ class Inertia : public Term {
 
   void add_residual(const At& at, Residual& out) const override;
   void add_tangent(const At& at, double alpha, Tangent& out) const override;
+  /// ½ ∫ ρ |u̇|².
+  double stored_energy(const At& at) const override;
   std::vector<std::string> parameters() const override { return {"density"}; }
   void add_parameter_derivative(const std::string& parameter, const At& at, Vector& out) const override;
   void add_tables(std::vector<const FieldTable*>& out) const override;

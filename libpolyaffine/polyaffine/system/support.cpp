@@ -84,6 +84,14 @@ void Support::add_tangent(const At& at, double alpha, Tangent& out) const {
     unit_.add_tangent({c_.of(at.y)}, out.field, factor);
 }
 
+double Support::stored_energy(const At& at) const {
+  return stiffness_ > 0 ? stiffness_ * unit_.evaluate({c_.of(at.y)}).value : 0;
+}
+
+double Support::dissipation(const At& at) const {
+  return damping_ > 0 && at.rate ? 2 * damping_ * unit_.evaluate({c_.of(*at.rate)}).value : 0;
+}
+
 void Support::add_parameter_derivative(const std::string& parameter, const At& at, Vector& out) const {
   if (parameter == "stiffness")
     c_.of(out) += force(c_.of(at.y)).gradient;

@@ -27,6 +27,9 @@ class Support : public Term {
 
   void add_residual(const At& at, Residual& out) const override;
   void add_tangent(const At& at, double alpha, Tangent& out) const override;
+  /// k/2 ∫ |u|² and η ∫ |u̇|², of what the support feels of u.
+  double stored_energy(const At& at) const override;
+  double dissipation(const At& at) const override;
   std::vector<std::string> parameters() const override { return {"stiffness", "damping"}; }
   void add_parameter_derivative(const std::string& parameter, const At& at, Vector& out) const override;
   void add_tables(std::vector<const FieldTable*>& out) const override;

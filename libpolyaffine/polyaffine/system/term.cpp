@@ -8,6 +8,13 @@ void Term::add_parameter_derivative(const std::string& parameter, const At&, Vec
   throw std::invalid_argument("term: no parameter " + parameter);
 }
 
+double Term::stored_energy(const At&) const {
+  return 0;
+}
+double Term::dissipation(const At&) const {
+  return 0;
+}
+
 std::shared_ptr<const Term> Term::mixed(StateLayout&) const {
   return nullptr;
 }

@@ -84,6 +84,12 @@ class Term {
   /// Adds ∂R/∂(parameter), a force a unit of the parameter. Throws std::invalid_argument for another name.
   virtual void add_parameter_derivative(const std::string& parameter, const At& at, Vector& out) const;
 
+  /// Energy that the term stores, µJ: elastic, or of the motion ẏ. Of the unknowns only the field is read;
+  /// the pressures of a mixed form are those that belong to the displacement.
+  virtual double stored_energy(const At& at) const;
+  /// Power that the term turns into heat, µJ/ms, read of the field alone as well.
+  virtual double dissipation(const At& at) const;
+
   /// The term with independent pressures, in a block of its own that is added to the layout; null where it
   /// has none. `start` sets them, and their rates where something moves, to those that belong to the
   /// displacement.

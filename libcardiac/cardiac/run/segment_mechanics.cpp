@@ -1,0 +1,157 @@
+#include "cardiac/run/segment_mechanics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <cardiac/run/active_tension.hpp>
+#include <cardiac/strain/segment_strain.hpp>
+#include <polyaffine/system/point_stress.hpp>
+
+namespace cardiac {
+
+using polyaffine::Mat3;
+using polyaffine::Matrix;
+using polyaffine::Points;
+using polyaffine::Vec3;
+using polyaffine::Vector;
+
+namespace {
+
+constexpr double kMicrojoule = 1e-3;  // mJ
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+// Work by segment, mJ.
+struct Work {
+  Vector all, active;
+};
+
+// A state of the wall: deformation and first Piola–Kirchhoff stresses at the points.
+struct WallState {
+  double time_ms = 0;
+  Matrix F, elastic, active;
+};
+
+class MechanicsGauge {
+ public:
+  MechanicsGauge(const Ventricle& ventricle, const Scene& scene, const HeartPath& path, const Vector& c_ed)
+      : model_(ventricle),
+        told_(ventricle.all_points ? *ventricle.all_points : ventricle),
+        path_(path),
+        weights_(told_.wall->table().weights),
+        segments_(num_segments(*told_.anatomy->coordinates)) {
+    const auto& points = told_.discretisation.points;
+    segment_ = SegmentGauge(*told_.anatomy->coordinates, points).segment();
+    volume_ = Vector::Zero(segments_);
+    for (std::size_t q = 0; q < segment_.size(); ++q)
+      volume_[segment_[q] - 1] += weights_[static_cast<Eigen::Index>(q)];
+    if (!scene.fibres) return;
+    fibre_ = fibres_at(*told_.anatomy, *scene.fibres, points.tet, points.barycentric).topRows<3>();
+    const Matrix F_ed = deformation(c_ed);
+    ed_length_.resize(fibre_.cols());
+    for (Eigen::Index q = 0; q < fibre_.cols(); ++q) ed_length_[q] = (at(F_ed, q) * fibre_.col(q)).norm();
+  }
+
+  Work none() const { return {Vector::Zero(segments_), Vector::Zero(segments_)}; }
+
+  WallState state(const HeartState& of) const {
+    WallState out{of.time_ms, deformation(of.c), {}, {}};
+    const Vector tension = active_tension(told_, path_, of);
+    out.elastic = polyaffine::elastic_stress(*told_.wall, out.F, pressure(of.c));
+    out.active = polyaffine::driven_stress(*told_.wall, out.F,
+                                           {tension.data(), static_cast<std::size_t>(tension.size())});
+    return out;
+  }
+
+  // Of viscosity between two states; zero where nothing moves.
+  Matrix viscous(const WallState& from, const WallState& to) const {
+    const double lasts = to.time_ms - from.time_ms;
+    if (!told_.wall->feels_rate() || !(lasts > 0)) return Matrix::Zero(9, weights_.size());
+    return polyaffine::viscous_stress(*told_.wall, (from.F + to.F) / 2, (to.F - from.F) / lasts);
+  }
+
+  void add_work(const WallState& from, const WallState& to, const Matrix& viscous, Work& sum) const {
+    const Matrix change = to.F - from.F, active = (from.active + to.active) / 2;
+    const Matrix all = active + viscous + (from.elastic + to.elastic) / 2;
+    for (Eigen::Index q = 0; q < weights_.size(); ++q) {
+      const int s = segment_[static_cast<std::size_t>(q)] - 1;
+      const double w = kMicrojoule * weights_[q];
+      sum.all[s] -= w * all.col(q).dot(change.col(q));
+      sum.active[s] -= w * active.col(q).dot(change.col(q));
+    }
+  }
+
+  std::vector<SegmentMechanics> measure(const WallState& at_time, const Matrix& viscous,
+                                        const Work& work) const {
+    std::vector<SegmentMechanics> out(static_cast<std::size_t>(segments_));
+    for (Eigen::Index q = 0; q < weights_.size(); ++q) {
+      const int s = segment_[static_cast<std::size_t>(q)] - 1;
+      const double share = weights_[q] / volume_[s];
+      SegmentMechanics& mean = out[static_cast<std::size_t>(s)];
+      const Mat3 F = at(at_time.F, q);
+      const Mat3 active = polyaffine::cauchy_stress(at(at_time.active, q), F);
+      const Mat3 all = active + polyaffine::cauchy_stress(at(at_time.elastic, q) + at(viscous, q), F);
+      const double third = all.trace() / 3;
+      mean.mean_stress_kPa += share * third;
+      mean.von_mises_kPa += share * std::sqrt(1.5) * (all - third * Mat3::Identity()).norm();
+      if (fibre_.cols() == 0) continue;
+      const Vec3 turned = F * fibre_.col(q), n = turned.normalized();
+      mean.fibre_strain += share * (turned.norm() / ed_length_[q] - 1);
+      mean.fibre_stress_kPa += share * n.dot(all * n);
+      mean.active_stress_kPa += share * n.dot(active * n);
+    }
+    for (Eigen::Index s = 0; s < segments_; ++s) {
+      SegmentMechanics& mean = out[static_cast<std::size_t>(s)];
+      mean.work_mJ = work.all[s];
+      mean.active_work_mJ = work.active[s];
+      if (!(volume_[s] > 0)) mean = {kNone, kNone, kNone, kNone, kNone, kNone, kNone};
+      if (fibre_.cols() == 0) mean.fibre_strain = mean.fibre_stress_kPa = mean.active_stress_kPa = kNone;
+    }
+    return out;
+  }
+
+ private:
+  static Mat3 at(const Matrix& values, Eigen::Index q) { return values.col(q).reshaped(3, 3); }
+  Matrix deformation(const Vector& c) const { return polyaffine::evaluate_field(told_.wall->table(), c); }
+  // Of the model, whose points give the volumes that it was solved with.
+  Vector pressure(const Vector& c) const {
+    return model_.wall->pressure_space() ? model_.wall->pressure(c) : Vector();
+  }
+
+  const Ventricle &model_, &told_;
+  const HeartPath& path_;
+  const Vector& weights_;
+  int segments_;
+  std::vector<int> segment_;  // of each point, from 1
+  Vector volume_;             // of each segment's points
+  Points fibre_;              // of each point; none without fibres
+  Vector ed_length_;          // |F_ed f|
+};
+
+}  // namespace
+
+std::vector<std::vector<SegmentMechanics>> segment_mechanics(const Ventricle& ventricle, const Scene& scene,
+                                                             const HeartPath& path, const Vector& c_ed) {
+  const MechanicsGauge gauge(ventricle, scene, path, c_ed);
+  std::vector<std::vector<SegmentMechanics>> out;
+  Work done = gauge.none();
+  WallState before = gauge.state(path.steps.front());
+  auto output = path.outputs.begin();
+  const std::size_t steps = path.steps.size() - 1;
+  for (std::size_t n = std::min<std::size_t>(1, steps); output != path.outputs.end(); ++n) {
+    WallState now = gauge.state(path.steps[n]);
+    const Matrix viscous = gauge.viscous(before, now);
+    for (; output != path.outputs.end() && (n == steps || output->time_ms < now.time_ms); ++output) {
+      const WallState between = gauge.state(*output);
+      Work work = done;
+      gauge.add_work(before, between, viscous, work);
+      out.push_back(gauge.measure(between, viscous, work));
+    }
+    gauge.add_work(before, now, viscous, done);
+    before = std::move(now);
+  }
+  return out;
+}
+
+}  // namespace cardiac

@@ -1,0 +1,145 @@
+#include "cardiac/run/energy_balance.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <ranges>
+
+#include <cardiac/core/units.hpp>
+#include <cardiac/tissue/active_stress.hpp>
+
+#include "polyaffine/system/block_body.hpp"
+#include "support/heart_run.hpp"
+
+namespace cardiac {
+namespace {
+
+using polyaffine::Vec3;
+using polyaffine::Vector;
+
+// A bar of 2 × 1 × 1 mm that stretches by λ(t) along its fibres x, its sides held: a neo-Hookean solid with
+// viscosity and mass, at its end a spring, a dashpot and the pressure p(t) of a cavity V = V₀ + 2 (λ − 1).
+// The tension is the one that the motion needs,
+//   2 (τ λ + P + P_v) + 2 k u + 2 η u̇ + ρ 2³/3 λ̈ = 2 p,  u = 2 (λ − 1).
+struct Bar {
+  static constexpr double kPeriod = 400, kDepth = 0.1, kLength = 2;
+  static constexpr double kLambda = 20, kMu = 10, kViscosity = 300, kSpring = 3, kDashpot = 500;
+  static constexpr double kDensity = 1.06;
+
+  static double omega() { return 2 * polyaffine::kPi / kPeriod; }
+  static double stretch(double t) { return 1 - kDepth / 2 * (1 - std::cos(omega() * t)); }
+  static double rate(double t) { return -kDepth / 2 * omega() * std::sin(omega() * t); }
+  static double acceleration(double t) { return -kDepth / 2 * omega() * omega() * std::cos(omega() * t); }
+  static double pressure(double t) { return 2 + std::sin(omega() * t); }
+  static double tension(double t) {
+    const double l = stretch(t), u = kLength * (l - 1);
+    const double passive = kMu * (l - 1 / l) + kLambda * std::log(l) / l + kViscosity * l * l * rate(t);
+    return (pressure(t) - kSpring * u - kDashpot * kLength * rate(t) -
+            kDensity * kLength * kLength / 3 * acceleration(t) - passive) /
+           l;
+  }
+
+  polyaffine::testing::BlockBody body;
+  Ventricle ventricle;
+
+  Bar() {
+    polyaffine::FieldTable table = polyaffine::deformation_table(body.basis, body.basis.wall_points(1));
+    const int points = table.num_points();
+    const FibreAxes axes = polyaffine::Mat3(polyaffine::Mat3::Identity()).reshaped().replicate(1, points);
+    ventricle.wall = std::make_shared<polyaffine::FieldEnergy>(
+        std::move(table),
+        polyaffine::testing::BlockBody::Laws{
+            std::make_shared<polyaffine::NeoHookean>(polyaffine::Lame{kLambda, kMu}),
+            std::make_shared<ActiveStress>(axes), std::make_shared<polyaffine::KelvinVoigt>(kViscosity)});
+    ventricle.supports = {body.support({kSpring, kDashpot, body.end_normals()})};
+    ventricle.states.push_back([this](polyaffine::StateLayout& layout, const scene::Time&) {
+      return std::make_shared<polyaffine::Inertia>(
+          polyaffine::displacement_table(body.basis, body.basis.wall_points(2)), kDensity, 1e-3, layout);
+    });
+    std::vector<double> times, tensions;
+    for (double t = 0; t <= kPeriod; t += 0.25) {
+      times.push_back(t);
+      tensions.push_back(tension(t));
+    }
+    ventricle.contraction = std::make_shared<ContractionField>(
+        ContractionField{TensionCurve(GivenCurve::through(times, tensions, kPeriod)),
+                         Vector::Zero(points),
+                         Vector::Ones(points),
+                         {}});
+  }
+
+  HeartState state(double t) const {
+    Vector c = Vector::Zero(ventricle.num_coefficients());
+    for (const int p : std::views::iota(0, body.mesh.num_points()))
+      c[3 * p] = (stretch(t) - 1) * body.mesh.points()(0, p);
+    return {t, c, Vector::Constant(1, 10 + kLength * (stretch(t) - 1)), Vector::Constant(1, pressure(t))};
+  }
+
+  EnergyBalance balance(int steps, double lasts) const {
+    HeartPath path;
+    for (int n = 0; n <= steps; ++n) path.steps.push_back(state(lasts * n / steps));
+    return energy_balance(ventricle, {}, path).value();
+  }
+};
+
+constexpr double kLasts = 270;  // no whole period, of which trapezoids are exact
+
+// Midpoints of 20 000 intervals, to 1e-8.
+double integral(const std::function<double(double)>& f) {
+  constexpr int kIntervals = 20000;
+  double sum = 0;
+  for (int i = 0; i < kIntervals; ++i) sum += f(kLasts * (i + 0.5) / kIntervals);
+  return sum * kLasts / kIntervals;
+}
+
+// Each number against its formula, in µJ; steps of 0.27 ms leave 1e-6 of it.
+TEST(EnergyBalance, OfABarHasTheTermsOfTheHandCalculation) {
+  const Bar bar;
+  const EnergyBalance e = bar.balance(1000, kLasts);
+  const double l = Bar::stretch(kLasts), u = 2 * (l - 1), log = std::log(l);
+  const auto near = [](double mJ, double microjoule) {
+    EXPECT_NEAR(1000 * mJ, microjoule, 1e-5 * std::abs(microjoule));
+    EXPECT_GT(std::abs(microjoule), 1e-6);
+  };
+  near(e.active_mJ, -2 * integral([](double t) { return Bar::tension(t) * Bar::stretch(t) * Bar::rate(t); }));
+  near(e.cavities_mJ, -2 * integral([](double t) { return Bar::pressure(t) * Bar::rate(t); }));
+  near(e.elastic_mJ, 2 * (Bar::kMu / 2 * (l * l - 1) - Bar::kMu * log + Bar::kLambda / 2 * log * log));
+  near(e.supports_mJ, Bar::kSpring / 2 * u * u);
+  near(e.kinetic_mJ, 0.5 * Bar::kDensity * 8 / 3 * std::pow(Bar::rate(kLasts), 2));
+  near(e.viscosity_mJ,
+       2 * Bar::kViscosity * integral([](double t) { return std::pow(Bar::stretch(t) * Bar::rate(t), 2); }));
+  near(e.dashpots_mJ, Bar::kDashpot * integral([](double t) { return std::pow(2 * Bar::rate(t), 2); }));
+  EXPECT_LT(e.percent(), 1e-3);
+}
+
+// Half the step, a quarter of the residual.
+TEST(EnergyBalance, ClosesWithTheSquareOfTheStep) {
+  const Bar bar;
+  const double coarse = bar.balance(25, kLasts).percent(), fine = bar.balance(50, kLasts).percent();
+  EXPECT_NEAR(coarse / fine, 4, 0.4);
+  EXPECT_LT(coarse, 1);
+}
+
+TEST(EnergyBalance, TellsWhenAnEffectIsMissing) {
+  Bar bar;
+  const EnergyBalance whole = bar.balance(200, kLasts);
+  bar.ventricle.supports.clear();
+  const EnergyBalance without = bar.balance(200, kLasts);
+  EXPECT_LT(whole.percent(), 0.1);
+  EXPECT_NEAR(without.residual_mJ(), whole.supports_mJ + whole.dashpots_mJ, 1e-3 * std::abs(whole.active_mJ));
+  EXPECT_GT(without.percent(), 5);
+}
+
+TEST(EnergyBalance, IsNoneWithoutContractionOrSteps) {
+  Bar bar;
+  HeartPath path;
+  EXPECT_FALSE(energy_balance(bar.ventricle, {}, path));
+  path.steps = {bar.state(0), bar.state(1), bar.state(2)};
+  EXPECT_TRUE(energy_balance(bar.ventricle, {}, path));
+  bar.ventricle.contraction = nullptr;
+  EXPECT_FALSE(energy_balance(bar.ventricle, {}, path));
+}
+
+}  // namespace
+}  // namespace cardiac
