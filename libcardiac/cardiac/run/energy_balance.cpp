@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <cardiac/run/active_tension.hpp>
+#include <polyaffine/kinematics/packed_field.hpp>
 #include <polyaffine/system/point_stress.hpp>
 
 namespace cardiac {
@@ -51,12 +52,13 @@ void add_steps(const Ventricle& ventricle, const HeartPath& path, EnergyBalance&
     const Vector tension = active_tension(ventricle, path, state);
     return polyaffine::driven_stress(wall, F, as_state(tension));
   };
-  Matrix F = polyaffine::evaluate_field(wall.table(), path.steps.front().c);
+  const polyaffine::PackedField deformation(wall.table());
+  Matrix F = deformation.at(path.steps.front().c);
   Matrix active = active_stress(path.steps.front(), F);
   for (std::size_t n = 1; n < path.steps.size(); ++n) {
     const HeartState &before = path.steps[n - 1], &now = path.steps[n];
     const double lasts = now.time_ms - before.time_ms;
-    const Matrix next = polyaffine::evaluate_field(wall.table(), now.c);
+    Matrix next = deformation.at(now.c);
     Matrix next_active = active_stress(now, next);
     const Matrix change = next - F;
     out.active_mJ -= kMicrojoule / 2 * polyaffine::work(weights, active + next_active, change);
@@ -68,7 +70,7 @@ void add_steps(const Ventricle& ventricle, const HeartPath& path, EnergyBalance&
     for (const auto& support : ventricle.supports)
       out.dashpots_mJ +=
           kMicrojoule * lasts * support->dissipation({path.beat_start_ms + now.time_ms, middle, &rate});
-    F = next;
+    F = std::move(next);
     active = std::move(next_active);
   }
 }

@@ -7,6 +7,7 @@
 
 #include <cardiac/run/active_tension.hpp>
 #include <cardiac/strain/segment_strain.hpp>
+#include <polyaffine/kinematics/packed_field.hpp>
 #include <polyaffine/system/point_stress.hpp>
 
 namespace cardiac {
@@ -40,6 +41,7 @@ class MechanicsGauge {
         told_(ventricle.all_points ? *ventricle.all_points : ventricle),
         path_(path),
         weights_(told_.wall->table().weights),
+        deformation_(told_.wall->table()),
         segments_(num_segments(*told_.anatomy->coordinates)) {
     const auto& points = told_.discretisation.points;
     segment_ = SegmentGauge(*told_.anatomy->coordinates, points).segment();
@@ -48,7 +50,7 @@ class MechanicsGauge {
       volume_[segment_[q] - 1] += weights_[static_cast<Eigen::Index>(q)];
     if (!scene.fibres) return;
     fibre_ = fibres_at(*told_.anatomy, *scene.fibres, points.tet, points.barycentric).topRows<3>();
-    const Matrix F_ed = deformation(c_ed);
+    const Matrix F_ed = deformation_.at(c_ed);
     ed_length_.resize(fibre_.cols());
     for (Eigen::Index q = 0; q < fibre_.cols(); ++q) ed_length_[q] = (at(F_ed, q) * fibre_.col(q)).norm();
   }
@@ -56,7 +58,7 @@ class MechanicsGauge {
   Work none() const { return {Vector::Zero(segments_), Vector::Zero(segments_)}; }
 
   WallState state(const HeartState& of) const {
-    WallState out{of.time_ms, deformation(of.c), {}, {}};
+    WallState out{of.time_ms, deformation_.at(of.c), {}, {}};
     const Vector tension = active_tension(told_, path_, of);
     out.elastic = polyaffine::elastic_stress(*told_.wall, out.F, pressure(of.c));
     out.active = polyaffine::driven_stress(*told_.wall, out.F,
@@ -113,7 +115,6 @@ class MechanicsGauge {
 
  private:
   static Mat3 at(const Matrix& values, Eigen::Index q) { return values.col(q).reshaped(3, 3); }
-  Matrix deformation(const Vector& c) const { return polyaffine::evaluate_field(told_.wall->table(), c); }
   // Of the model, whose points give the volumes that it was solved with.
   Vector pressure(const Vector& c) const {
     return model_.wall->pressure_space() ? model_.wall->pressure(c) : Vector();
@@ -122,6 +123,7 @@ class MechanicsGauge {
   const Ventricle &model_, &told_;
   const HeartPath& path_;
   const Vector& weights_;
+  polyaffine::PackedField deformation_;
   int segments_;
   std::vector<int> segment_;  // of each point, from 1
   Vector volume_;             // of each segment's points

@@ -25,7 +25,7 @@ using polyaffine::Vector;
 struct Bar {
   static constexpr double kPeriod = 400, kDepth = 0.1, kLength = 2;
   static constexpr double kLambda = 20, kMu = 10, kViscosity = 300, kSpring = 3, kDashpot = 500;
-  static constexpr double kDensity = 1.06;
+  static constexpr double kDensity = 1e5;  // so heavy that the motion holds energy
 
   static double omega() { return 2 * polyaffine::kPi / kPeriod; }
   static double stretch(double t) { return 1 - kDepth / 2 * (1 - std::cos(omega() * t)); }
@@ -93,14 +93,14 @@ double integral(const std::function<double(double)>& f) {
   return sum * kLasts / kIntervals;
 }
 
-// Each number against its formula, in µJ; steps of 0.27 ms leave 1e-6 of it.
+// Each number against its formula, in µJ; steps of 0.27 ms leave 1.2e-5 of the kinetic energy.
 TEST(EnergyBalance, OfABarHasTheTermsOfTheHandCalculation) {
   const Bar bar;
   const EnergyBalance e = bar.balance(1000, kLasts);
   const double l = Bar::stretch(kLasts), u = 2 * (l - 1), log = std::log(l);
   const auto near = [](double mJ, double microjoule) {
-    EXPECT_NEAR(1000 * mJ, microjoule, 1e-5 * std::abs(microjoule));
-    EXPECT_GT(std::abs(microjoule), 1e-6);
+    EXPECT_NEAR(1000 * mJ, microjoule, 2.5e-5 * std::abs(microjoule));
+    EXPECT_GT(std::abs(microjoule), 0.01);
   };
   near(e.active_mJ, -2 * integral([](double t) { return Bar::tension(t) * Bar::stretch(t) * Bar::rate(t); }));
   near(e.cavities_mJ, -2 * integral([](double t) { return Bar::pressure(t) * Bar::rate(t); }));

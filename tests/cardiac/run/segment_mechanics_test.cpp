@@ -86,16 +86,20 @@ TEST(SegmentMechanics, OfASwellingWallIsPressure) {
   std::vector<Mat3> path;
   for (int n = 0; n <= 20; ++n) path.emplace_back((1 + (s - 1) * n / 20) * Mat3::Identity());
   const double stress = kappa * (s * s * s - 1), density = kappa / 2 * std::pow(s * s * s - 1, 2);
-  const auto& heart = *wall().scene.heart;
-  const auto volumes = segment_volumes(heart.mesh, heart.segment, 17);
   const auto all = wall().last(path, Mat3::Identity());
+  double work = 0;
   for (std::size_t k = 0; k < all.size(); ++k) {
     EXPECT_NEAR(all[k].fibre_stress_kPa, stress, 1e-9 * stress);
     EXPECT_NEAR(all[k].mean_stress_kPa, stress, 1e-9 * stress);
     EXPECT_NEAR(all[k].von_mises_kPa, 0, 1e-9 * stress);
     EXPECT_NEAR(all[k].fibre_strain, s - 1, 1e-12);
-    EXPECT_NEAR(all[k].work_mJ, -1e-3 * density * volumes[k], 1e-3 * 1e-3 * density * volumes[k]);
+    work += all[k].work_mJ;
   }
+  // Trapezoids of 20 steps leave 1e-5 of a work that is nearly of second order in the swelling.
+  const Anatomy& heart = *wall().scene.heart;
+  double volume = 0;
+  for (const double v : segment_volumes(heart.mesh, heart.segment, 17)) volume += v;
+  EXPECT_NEAR(work, -1e-3 * density * volume, 1e-3 * 1e-3 * density * volume);
 }
 
 TEST(SegmentMechanics, FibreStrainIsThatSinceEndDiastole) {

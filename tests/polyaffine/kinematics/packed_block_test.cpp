@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <polyaffine/kinematics/block_products.hpp>
+#include <polyaffine/kinematics/packed_field.hpp>
 #include "rotating_basis.hpp"
 
 namespace polyaffine {
@@ -127,6 +128,12 @@ TEST_P(PackedBlocks, ForceRowsAreForcesOfScaledFields) {
 
 INSTANTIATE_TEST_SUITE_P(Groups, PackedBlocks,
                          ::testing::Values(std::pair(4, 0), std::pair(0, 9), std::pair(17, 6)));
+
+TEST(PackedField, IsTheFieldOfTheTable) {
+  const FieldTable table = random_table(17, 6, 13);
+  const Vector c = random_vector(table.num_unknowns(), 1, 20);
+  EXPECT_LT((PackedField(table).at(c) - evaluate_field(table, c)).cwiseAbs().maxCoeff(), 100 * kRounding);
+}
 
 }  // namespace
 }  // namespace polyaffine
