@@ -6,7 +6,7 @@
 #include <utility>
 
 #include <cardiac/run/active_tension.hpp>
-#include <cardiac/strain/segment_strain.hpp>
+#include <cardiac/run/segment_shares.hpp>
 #include <polyaffine/kinematics/packed_field.hpp>
 #include <polyaffine/system/point_stress.hpp>
 
@@ -40,22 +40,18 @@ class MechanicsGauge {
       : model_(ventricle),
         told_(ventricle.all_points ? *ventricle.all_points : ventricle),
         path_(path),
-        weights_(told_.wall->table().weights),
         deformation_(told_.wall->table()),
-        segments_(num_segments(*told_.anatomy->coordinates)) {
-    const auto& points = told_.discretisation.points;
-    segment_ = SegmentGauge(*told_.anatomy->coordinates, points).segment();
-    volume_ = Vector::Zero(segments_);
-    for (std::size_t q = 0; q < segment_.size(); ++q)
-      volume_[segment_[q] - 1] += weights_[static_cast<Eigen::Index>(q)];
+        shares_(segment_shares(*told_.anatomy, told_.discretisation)),
+        volumes_(shares_.rowwise().sum()) {
     if (!scene.fibres) return;
+    const auto& points = told_.discretisation.points;
     fibre_ = fibres_at(*told_.anatomy, *scene.fibres, points.tet, points.barycentric).topRows<3>();
     const Matrix F_ed = deformation_.at(c_ed);
     ed_length_.resize(fibre_.cols());
     for (Eigen::Index q = 0; q < fibre_.cols(); ++q) ed_length_[q] = (at(F_ed, q) * fibre_.col(q)).norm();
   }
 
-  Work none() const { return {Vector::Zero(segments_), Vector::Zero(segments_)}; }
+  Work none() const { return {Vector::Zero(volumes_.size()), Vector::Zero(volumes_.size())}; }
 
   WallState state(const HeartState& of) const {
     WallState out{of.time_ms, deformation_.at(of.c), {}, {}};
@@ -69,46 +65,38 @@ class MechanicsGauge {
   // Of viscosity between two states; zero where nothing moves.
   Matrix viscous(const WallState& from, const WallState& to) const {
     const double lasts = to.time_ms - from.time_ms;
-    if (!told_.wall->feels_rate() || !(lasts > 0)) return Matrix::Zero(9, weights_.size());
+    if (!told_.wall->feels_rate() || !(lasts > 0)) return Matrix::Zero(9, from.F.cols());
     return polyaffine::viscous_stress(*told_.wall, (from.F + to.F) / 2, (to.F - from.F) / lasts);
   }
 
   void add_work(const WallState& from, const WallState& to, const Matrix& viscous, Work& sum) const {
     const Matrix change = to.F - from.F, active = (from.active + to.active) / 2;
     const Matrix all = active + viscous + (from.elastic + to.elastic) / 2;
-    for (Eigen::Index q = 0; q < weights_.size(); ++q) {
-      const int s = segment_[static_cast<std::size_t>(q)] - 1;
-      const double w = kMicrojoule * weights_[q];
-      sum.all[s] -= w * all.col(q).dot(change.col(q));
-      sum.active[s] -= w * active.col(q).dot(change.col(q));
-    }
+    const auto by_segment = [&](const Matrix& P) {
+      return Vector(kMicrojoule * shares_ * P.cwiseProduct(change).colwise().sum().transpose());
+    };
+    sum.all -= by_segment(all);
+    sum.active -= by_segment(active);
   }
 
-  std::vector<SegmentMechanics> measure(const WallState& at_time, const Matrix& viscous,
-                                        const Work& work) const {
-    std::vector<SegmentMechanics> out(static_cast<std::size_t>(segments_));
-    for (Eigen::Index q = 0; q < weights_.size(); ++q) {
-      const int s = segment_[static_cast<std::size_t>(q)] - 1;
-      const double share = weights_[q] / volume_[s];
-      SegmentMechanics& mean = out[static_cast<std::size_t>(s)];
-      const Mat3 F = at(at_time.F, q);
-      const Mat3 active = polyaffine::cauchy_stress(at(at_time.active, q), F);
-      const Mat3 all = active + polyaffine::cauchy_stress(at(at_time.elastic, q) + at(viscous, q), F);
+  std::vector<SegmentMechanics> measure(const WallState& now, const Matrix& viscous, const Work& work) const {
+    Matrix at_points = Matrix::Constant(5, now.F.cols(), kNone);
+    for (Eigen::Index q = 0; q < now.F.cols(); ++q) {
+      const Mat3 F = at(now.F, q), active = polyaffine::cauchy_stress(at(now.active, q), F);
+      const Mat3 all = active + polyaffine::cauchy_stress(at(now.elastic, q) + at(viscous, q), F);
       const double third = all.trace() / 3;
-      mean.mean_stress_kPa += share * third;
-      mean.von_mises_kPa += share * std::sqrt(1.5) * (all - third * Mat3::Identity()).norm();
+      at_points.col(q).tail<2>() << third, std::sqrt(1.5) * (all - third * Mat3::Identity()).norm();
       if (fibre_.cols() == 0) continue;
       const Vec3 turned = F * fibre_.col(q), n = turned.normalized();
-      mean.fibre_strain += share * (turned.norm() / ed_length_[q] - 1);
-      mean.fibre_stress_kPa += share * n.dot(all * n);
-      mean.active_stress_kPa += share * n.dot(active * n);
+      at_points.col(q).head<3>() << turned.norm() / ed_length_[q] - 1, n.dot(all * n), n.dot(active * n);
     }
-    for (Eigen::Index s = 0; s < segments_; ++s) {
-      SegmentMechanics& mean = out[static_cast<std::size_t>(s)];
-      mean.work_mJ = work.all[s];
-      mean.active_work_mJ = work.active[s];
-      if (!(volume_[s] > 0)) mean = {kNone, kNone, kNone, kNone, kNone, kNone, kNone};
-      if (fibre_.cols() == 0) mean.fibre_strain = mean.fibre_stress_kPa = mean.active_stress_kPa = kNone;
+    const Matrix sums = at_points * shares_.transpose();
+    std::vector<SegmentMechanics> out;
+    for (Eigen::Index s = 0; s < volumes_.size(); ++s) {
+      const Vector mean = sums.col(s) / volumes_[s];
+      const bool there = volumes_[s] > 0;
+      out.push_back({mean[0], mean[1], mean[2], mean[3], mean[4], there ? work.all[s] : kNone,
+                     there ? work.active[s] : kNone});
     }
     return out;
   }
@@ -122,13 +110,11 @@ class MechanicsGauge {
 
   const Ventricle &model_, &told_;
   const HeartPath& path_;
-  const Vector& weights_;
   polyaffine::PackedField deformation_;
-  int segments_;
-  std::vector<int> segment_;  // of each point, from 1
-  Vector volume_;             // of each segment's points
-  Points fibre_;              // of each point; none without fibres
-  Vector ed_length_;          // |F_ed f|
+  Matrix shares_;     // segments × points
+  Vector volumes_;    // of the segments
+  Points fibre_;      // of each point; none without fibres
+  Vector ed_length_;  // |F_ed f|
 };
 
 }  // namespace

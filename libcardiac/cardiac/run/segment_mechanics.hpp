@@ -8,8 +8,8 @@
 namespace cardiac {
 
 /// Mechanics of all segments, index 0 for segment 1, in each of a path's output states: means over the
-/// integration points of the segment (of a trained rule: over all its candidates), weighted by their volume
-/// in the mesh.
+/// integration points (of a trained rule: over all its candidates), weighted by the volume that each stands
+/// for in the segment (segment_shares).
 ///   fibre strain   |F f| / |F_ed f| − 1, F_ed at the coefficients `c_ed`,
 ///   stresses       of the Cauchy stress σ = P Fᵀ/det F of laws, pressure, active tension and viscosity:
 ///                  n·σ n along n = F f/|F f|, that of the active part alone, tr σ/3 and the equivalent

@@ -6,8 +6,12 @@
 #include <cmath>
 
 #include <cardiac/anatomy/structured_ellipsoid.hpp>
+#include <cardiac/reduction/reduced_points.hpp>
 #include <cardiac/run/build_ventricle.hpp>
+#include <cardiac/run/segment_shares.hpp>
 #include <cardiac/run/simulate.hpp>
+#include <cardiac/strain/segment_strain.hpp>
+#include <iostream>
 #include <polyaffine/kinematics/lagrange.hpp>
 
 namespace cardiac {
@@ -162,6 +166,26 @@ TEST(SegmentMechanics, SegmentsAddUpToTheEnergyOfTheBeat) {
               0.01 * energy.active_mJ);
   const auto& first = outcome.result.instants.front().mechanics;
   EXPECT_EQ(first.front().work_mJ, 0);
+}
+
+// What the points stand for: their weights, and the volumes of the segments.
+TEST(SegmentShares, KeepTheVolumesOfPointsAndSegments) {
+  Scene scene;
+  scene.heart = heart(human_lv(), {8, 16, 1});
+  scene.fibres.emplace();
+  const Outcome outcome = simulate(scene);
+  const Discretisation& d = outcome.model.discretisation;
+  const polyaffine::Matrix shares = segment_shares(*scene.heart, d);
+  EXPECT_LT((shares.colwise().sum().transpose() - d.points.weights).cwiseAbs().maxCoeff(),
+            1e-12 * d.points.weights.sum());
+  const SegmentGauge fine(*scene.heart->coordinates, strain_points(*scene.heart, d));
+  Vector volumes = Vector::Zero(17);
+  for (std::size_t k = 0; k < fine.segment().size(); ++k)
+    volumes[fine.segment()[k] - 1] += fine.weights()[static_cast<Eigen::Index>(k)];
+  std::cerr << volumes.transpose() << "\n" << shares.rowwise().sum().transpose() << "\n";
+  for (const double v : segment_volumes(scene.heart->mesh, scene.heart->segment, 17)) std::cerr << v << " ";
+  std::cerr << d.points.weights.sum() << " " << volumes.sum() << "\n";
+  for (int s = 0; s < 17; ++s) EXPECT_NEAR(shares.row(s).sum(), volumes[s], 0.01 * volumes[s]) << s + 1;
 }
 
 }  // namespace
