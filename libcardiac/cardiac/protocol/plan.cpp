@@ -131,6 +131,7 @@ std::vector<PlanItem> plan(const Protocol& protocol, bool verify) {
     items.push_back({"verification", false, verify ? "the run is full order itself" : "no --verify"});
   }
   items.push_back(output_item("tables", protocol.output.tables, "output.tables"));
+  items.push_back(output_item("mechanics", protocol.output.mechanics, "output.mechanics"));
   items.push_back(output_item("figures", protocol.output.figures, "output.figures"));
   items.push_back(output_item("mesh series", protocol.output.mesh_series, "output.mesh_series"));
   return items;

@@ -1,6 +1,7 @@
 #include "cardiac/run/segment_shares.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include <cardiac/reduction/reduced_points.hpp>
@@ -19,7 +20,7 @@ constexpr double kTouching_mm2 = 1e-6;
 constexpr int kNeighbours = 8;  // points among which a strain point is shared out
 
 // The volume (mm³) of each segment (row) that lies about each point (column): strain points are shared out
-// among their nearest points by the inverse square of the distance.
+// among their nearest points by the inverse fourth power of the distance.
 Matrix volumes_about(const SegmentGauge& fine, const polyaffine::Points& points, Eigen::Index segments) {
   const auto count = std::min<Eigen::Index>(kNeighbours, points.cols());
   const auto strain_points = static_cast<int>(fine.segment().size());
@@ -34,7 +35,7 @@ Matrix volumes_about(const SegmentGauge& fine, const polyaffine::Points& points,
                       [&](int a, int b) { return square[a] < square[b]; });
     for (Eigen::Index i = 0; i < count; ++i) {
       nearest(i, k) = order[static_cast<std::size_t>(i)];
-      part(i, k) = 1 / std::max(square[nearest(i, k)], kTouching_mm2);
+      part(i, k) = std::pow(std::max(square[nearest(i, k)], kTouching_mm2), -2);
     }
     part.col(k) *= fine.weights()[k] / part.col(k).sum();
   });

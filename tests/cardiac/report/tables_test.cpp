@@ -122,6 +122,31 @@ TEST(Tables, FramesAreWrittenWithAllDigits) {
   EXPECT_EQ(lines(table), 1 + 2 * 81);
 }
 
+TEST(Tables, MechanicsHaveARowPerTimeAndSegment) {
+  BeatResult r = test::synthetic_beat();
+  for (Instant& instant : r.instants)
+    instant.mechanics.assign(17, {-0.125, 40.5, 80, std::nan(""), 60, 12.25, 13});
+  const std::string table = mechanics_table(r);
+  EXPECT_THAT(table, StartsWith("time_ms,segment,name,fibre_strain,fibre_stress_kPa,active_stress_kPa,"
+                                "mean_stress_kPa,von_mises_kPa,work_mJ,active_work_mJ\n"
+                                "0,1,basal anterior,-0.125,40.5,80,,60,12.25,13\n"));
+  EXPECT_EQ(lines(table), 1 + 17 * 81);
+}
+
+TEST(Summary, TellsTheEnergyOfTheBeat) {
+  BeatResult r = test::synthetic_beat();
+  auto json = nlohmann::json::parse(summary_text(r, test::synthetic_info()));
+  EXPECT_TRUE(json["energy_balance_percent"].is_null());
+  r.energy = {1000, 900, 10, -5, 2, 60, 23};  // 10 mJ are missing
+  json = nlohmann::json::parse(summary_text(r, test::synthetic_info()));
+  EXPECT_NEAR(json["energy_balance_percent"].get<double>(), 1, 1e-9);
+  EXPECT_NEAR(json["energy"]["residual_mJ"].get<double>(), 10, 1e-9);
+  EXPECT_EQ(json["energy"]["viscosity_mJ"], 60);
+  r.energy = {500, 1000, 0, 0, 0, 0, 0};  // the sign is in the residual
+  json = nlohmann::json::parse(summary_text(r, test::synthetic_info()));
+  EXPECT_NEAR(json["energy_balance_percent"].get<double>(), 50, 1e-9);
+}
+
 TEST(Tables, NamesWithCommasAndQuotesStayOneField) {
   BeatResult r = test::synthetic_beat();
   r.segments[0].name = "a \"b\", c";

@@ -125,15 +125,25 @@ std::vector<RunKind> kinds() {
 /// Not tried: what is read before or written after what is computed here, what must fit the mesh (or needs
 /// several openings of it), what is a kind of its own, and what tells how many beats there are.
 bool elsewhere(const std::string& path) {
-  static const std::set<std::string> paths{"anatomy.scheme",       "anatomy.mitral_point",
-                                           "output.frames",        "reduction.method",
-                                           "fibres.source",        "activation.mode",
-                                           "output.tables",        "output.figures",
-                                           "output.mesh_series",   "region.name",
-                                           "time.max_beats",       "time.limit_cycle_tolerance_percent",
-                                           "contraction.model",    "contraction.calcium_file",
-                                           "circulation.loop",     "cavities.pressure_file",
-                                           "cavities.volume_file", "boundary.epicardial_weight_array"};
+  static const std::set<std::string> paths{"anatomy.scheme",
+                                           "anatomy.mitral_point",
+                                           "output.frames",
+                                           "output.mechanics",
+                                           "reduction.method",
+                                           "fibres.source",
+                                           "activation.mode",
+                                           "output.tables",
+                                           "output.figures",
+                                           "output.mesh_series",
+                                           "region.name",
+                                           "time.max_beats",
+                                           "time.limit_cycle_tolerance_percent",
+                                           "contraction.model",
+                                           "contraction.calcium_file",
+                                           "circulation.loop",
+                                           "cavities.pressure_file",
+                                           "cavities.volume_file",
+                                           "boundary.epicardial_weight_array"};
   return path.starts_with("mesh.") || paths.contains(path);
 }
 
