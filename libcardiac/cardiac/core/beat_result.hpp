@@ -26,8 +26,8 @@ struct SegmentFrame {
   double misfit = 0;  ///< share of the motion that no affine map holds; NaN without motion
 };
 
-/// Mechanics of a segment: means over its points, weighted by their volume in the mesh (SegmentGauge of the
-/// mechanics: segment_mechanics). NaN where it does not apply or the segment has no point.
+/// Mechanics of a segment, means over its volume in the mesh (segment_mechanics). NaN where it does not apply
+/// or the segment has no integration point.
 struct SegmentMechanics {
   double fibre_strain = 0;       ///< stretch along the fibre since end diastole, minus one
   double fibre_stress_kPa = 0;   ///< Cauchy stress along the fibre, of all that the wall consists of
@@ -46,8 +46,8 @@ struct EnergyBalance {
   double elastic_mJ = 0, supports_mJ = 0, kinetic_mJ = 0;  ///< change of what is stored
   double viscosity_mJ = 0, dashpots_mJ = 0;                ///< lost
 
-  /// What is missing: active work less all others.
-  double residual_mJ() const;
+  /// What is missing, mJ: active work less all others.
+  double residual() const;
   /// |residual| over the larger of |active work| and |work on the blood|; NaN where both are zero.
   double percent() const;
 };

@@ -93,7 +93,7 @@ Json energy_json(const EnergyBalance& e) {
   return {{"active_mJ", number(e.active_mJ)},     {"cavities_mJ", number(e.cavities_mJ)},
           {"elastic_mJ", number(e.elastic_mJ)},   {"supports_mJ", number(e.supports_mJ)},
           {"kinetic_mJ", number(e.kinetic_mJ)},   {"viscosity_mJ", number(e.viscosity_mJ)},
-          {"dashpots_mJ", number(e.dashpots_mJ)}, {"residual_mJ", number(e.residual_mJ())}};
+          {"dashpots_mJ", number(e.dashpots_mJ)}, {"residual_mJ", number(e.residual())}};
 }
 
 Json global_json(const GlobalStrain& strain) {

@@ -1,6 +1,6 @@
 #include "cardiac/run/energy_balance.hpp"
 
-#include <cmath>
+#include <utility>
 
 #include <cardiac/run/active_tension.hpp>
 #include <polyaffine/kinematics/packed_field.hpp>
@@ -28,14 +28,15 @@ Vector rate_at(double at, const HeartState& a, const HeartState& b, const HeartS
          slope(c.time_ms, a.time_ms, b.time_ms) * c.c;
 }
 
-// −∫ p dV of all cavities; none of a wall without a cavity, whose volume is no number.
+// −∫ p dV of all cavities; none of a wall without a cavity, which is told without a volume.
 double work_on_blood(const std::vector<HeartState>& steps) {
+  if (!steps.front().volumes_mm3.allFinite()) return 0;
   double sum = 0;
   for (std::size_t n = 1; n < steps.size(); ++n) {
     const Vector change = steps[n].volumes_mm3 - steps[n - 1].volumes_mm3;
     sum -= 0.5 * (steps[n].pressures_kPa + steps[n - 1].pressures_kPa).dot(change);
   }
-  return std::isfinite(sum) ? sum : 0;
+  return sum;
 }
 
 double stored(const polyaffine::Terms& terms, const Vector& c, const Vector& rate) {

@@ -1,7 +1,9 @@
 #include "cardiac/run/result.hpp"
 
 #include <algorithm>
+#include <iomanip>
 #include <limits>
+#include <sstream>
 
 #include <cardiac/core/units.hpp>
 #include <cardiac/reduction/axes_check.hpp>
@@ -19,6 +21,7 @@ namespace {
 
 // Muscle keeps its volume within some per cent; a reduced wall within tens, at its worst point.
 constexpr double kCrushed = 0.5;
+constexpr double kLostEnergy_percent = 2;  // twenty times what the default tolerances leave
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 VentricleSummary summarise(const HeartPath& path, const KeyStates& key, int cavity, const std::string& name,
@@ -103,6 +106,15 @@ void warn_of_crushing(bool full_order, BeatResult& out) {
                                      : "reduction.local_bulk_modulus_kPa (60 where muscle contracts)"));
 }
 
+void warn_of_energy(BeatResult& out) {
+  if (!out.energy || out.energy->active_mJ == 0 || !(out.energy->percent() > kLostEnergy_percent)) return;
+  std::ostringstream text;
+  text << std::setprecision(2) << "the energy of the last beat does not balance: " << out.energy->percent()
+       << " % of it is missing (energy_balance_percent); lower time.relative_tolerance and "
+          "time.absolute_tolerance_mm";
+  out.warnings.push_back(text.str());
+}
+
 }  // namespace
 
 std::vector<ControlNode> segment_nodes(const Anatomy& anatomy, const Scene& scene) {
@@ -162,6 +174,7 @@ BeatResult describe_path(const Ventricle& ventricle, const std::vector<ControlNo
     out.balances = flow_balances(path, scene);
   }
   out.energy = energy_balance(ventricle, scene.time, path);
+  if (out.completed) warn_of_energy(out);
   add_motion(ventricle, nodes, scene, path, key, out);
   warn_of_crushing(d.sparse, out);
   return out;

@@ -127,7 +127,7 @@ TEST(EnergyBalance, TellsWhenAnEffectIsMissing) {
   bar.ventricle.supports.clear();
   const EnergyBalance without = bar.balance(200, kLasts);
   EXPECT_LT(whole.percent(), 0.1);
-  EXPECT_NEAR(without.residual_mJ(), whole.supports_mJ + whole.dashpots_mJ, 1e-3 * std::abs(whole.active_mJ));
+  EXPECT_NEAR(without.residual(), whole.supports_mJ + whole.dashpots_mJ, 1e-3 * std::abs(whole.active_mJ));
   EXPECT_GT(without.percent(), 5);
 }
 
