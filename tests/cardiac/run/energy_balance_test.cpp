@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <ranges>
@@ -202,6 +203,22 @@ TEST(EnergyBalance, ClosesBetterWhereTimeIsIntegratedMoreClosely) {
       "healthy_lv", {"time.relative_tolerance=1e-5", "time.absolute_tolerance_mm=1e-4"}));
   const double shipped = testing::shipped_run("healthy_lv").result.energy.value().percent();
   EXPECT_LT(close.result.energy.value().percent(), shipped / 5);
+}
+
+// Pressures that are told a tenth too high do a tenth more of work.
+TEST(EnergyBalance, ThatDoesNotCloseIsWarnedOf) {
+  const testing::HeartRun& run = testing::shipped_run("healthy_lv");
+  const auto warnings = [&](const HeartPath& path) {
+    const BeatResult r =
+        describe_path(run.ventricle, segment_nodes(*run.ventricle.anatomy, run.protocol), run.protocol, path);
+    return std::ranges::count_if(r.warnings, [](const std::string& text) {
+      return text.find("does not balance") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(warnings(run.path), 0);
+  HeartPath wrong = run.path;
+  for (HeartState& step : wrong.steps) step.pressures_kPa *= 1.1;
+  EXPECT_EQ(warnings(wrong), 1);
 }
 
 }  // namespace
