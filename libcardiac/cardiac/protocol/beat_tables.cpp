@@ -346,11 +346,12 @@ Table output_table() {
            {.meaning = "unknowns of the control frames with the functions they belong to (frames.csv)",
             .source = "convention: of use only to who wants the model itself",
             .also = {reduced()}})
-      .key("mechanics", &Output::mechanics,
-           {.meaning = "fibre strain, stresses and work of each segment (mechanics.csv)",
-            .source = "convention: stress at every point and step takes a few per cent of a beat's time",
-            .also = {
-                {"output.tables = true", [](const Protocol& p, std::size_t) { return p.output.tables; }}}});
+      .key(
+          "mechanics", &Output::mechanics,
+          {.meaning = "fibre strain, stresses and work of each segment (mechanics.csv)",
+           .source = "convention: stress at every point and step is a sixth of the work of a run of one beat",
+           .also = {
+               {"output.tables = true", [](const Protocol& p, std::size_t) { return p.output.tables; }}}});
   return table.build();
 }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <ranges>
 
 #include <cardiac/anatomy/structured_ellipsoid.hpp>
 #include <cardiac/tissue/active_stress.hpp>
@@ -59,9 +58,9 @@ struct Bar {
           polyaffine::displacement_table(body.basis, body.basis.wall_points(2)), kDensity, 1e-3, layout);
     });
     std::vector<double> times, tensions;
-    for (double t = 0; t <= kPeriod; t += 0.25) {
-      times.push_back(t);
-      tensions.push_back(tension(t));
+    for (int i = 0; i <= 4 * kPeriod; ++i) {
+      times.push_back(0.25 * i);
+      tensions.push_back(tension(times.back()));
     }
     ventricle.contraction = std::make_shared<ContractionField>(
         ContractionField{TensionCurve(GivenCurve::through(times, tensions, kPeriod)),
@@ -72,8 +71,7 @@ struct Bar {
 
   HeartState state(double t) const {
     Vector c = Vector::Zero(ventricle.num_coefficients());
-    for (const int p : std::views::iota(0, body.mesh.num_points()))
-      c[3 * p] = (stretch(t) - 1) * body.mesh.points()(0, p);
+    for (int p = 0; p < body.mesh.num_points(); ++p) c[3 * p] = (stretch(t) - 1) * body.mesh.points()(0, p);
     return {t, c, Vector::Constant(1, 10 + kLength * (stretch(t) - 1)), Vector::Constant(1, pressure(t))};
   }
 

@@ -92,12 +92,12 @@ TEST(SegmentMechanics, OfASwellingWallIsPressure) {
   const double stress = kappa * (s * s * s - 1), density = kappa / 2 * std::pow(s * s * s - 1, 2);
   const auto all = wall().last(path, Mat3::Identity());
   double work = 0;
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    EXPECT_NEAR(all[k].fibre_stress_kPa, stress, 1e-9 * stress);
-    EXPECT_NEAR(all[k].mean_stress_kPa, stress, 1e-9 * stress);
-    EXPECT_NEAR(all[k].von_mises_kPa, 0, 1e-9 * stress);
-    EXPECT_NEAR(all[k].fibre_strain, s - 1, 1e-12);
-    work += all[k].work_mJ;
+  for (const SegmentMechanics& m : all) {
+    EXPECT_NEAR(m.fibre_stress_kPa, stress, 1e-9 * stress);
+    EXPECT_NEAR(m.mean_stress_kPa, stress, 1e-9 * stress);
+    EXPECT_NEAR(m.von_mises_kPa, 0, 1e-9 * stress);
+    EXPECT_NEAR(m.fibre_strain, s - 1, 1e-12);
+    work += m.work_mJ;
   }
   // Trapezoids of 20 steps leave 1e-5 of a work that is nearly of second order in the swelling.
   const Anatomy& heart = *wall().scene.heart;
