@@ -38,7 +38,7 @@ void BestelFull2001::respond(const FibreMotion& at, const States& z, bool deriva
   r.rates[stress] = -decay * z[stress] + ratio * z[stiffness] * speed + overlap.value * up;
   r.rates[stiffness] = -decay * z[stiffness] + overlap.value * up;
   if (!derivatives) return;
-  r.by_stretch = r.by_rate = 0;
+  r.by_stretch = 0;
   r.by_state = {sigma, 0, 0};
   r.rates_by_stretch = {0, overlap.slope * up, overlap.slope * up};
   r.rates_by_rate = {k_s / sigma, 0, 0};

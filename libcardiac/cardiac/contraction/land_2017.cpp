@@ -70,7 +70,6 @@ void Land2017::respond(const FibreMotion& at, const States& z, bool derivatives,
   r.tension_kPa = overlap.value * scale * bridges;
   if (!derivatives) return;
   r.by_stretch = overlap.slope * scale * bridges;
-  r.by_rate = 0;
   const double held = overlap.value * scale;
   r.by_state = {0, 0, held * zeta_w, held * (zeta_s + 1), held * z[weak], held * z[strong]};
   r.rates_by_stretch = {p_.k_TRPN * bound.by_stretch * (1 - z[troponin]), 0, 0, 0, 0, 0};

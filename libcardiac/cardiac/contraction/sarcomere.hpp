@@ -20,7 +20,7 @@ struct SarcomereResponse {
   using States = std::array<double, kMostSarcomereStates>;
 
   double tension_kPa = 0;  ///< T, force over the reference area; the power it takes is T λ̇
-  double by_stretch = 0, by_rate = 0;
+  double by_stretch = 0;
   States by_state{};
   States rates{};  ///< ż, 1/ms
   States rates_by_stretch{}, rates_by_rate{};
@@ -28,7 +28,7 @@ struct SarcomereResponse {
 };
 
 /// A contraction that feels its fibre: states z of a point, without unit and of the order of one, with
-///   ż = g(d(t), λ, λ̇, z),  T = T(λ, λ̇, z),
+///   ż = g(d(t), λ, λ̇, z),  T = T(λ, z),
 /// driven by d, a function of the time since the excitation of the point.
 /// Models are immutable.
 class SarcomereModel {

@@ -68,7 +68,7 @@ struct LayerStrain {
 struct GlobalStrain {
   double gls_percent = 0, gcs_percent = 0, grs_percent = 0, twist_deg = 0;
   LayerStrain longitudinal{}, circumferential{};
-  double wall_thickening_percent = 0, base_excursion_mm = 0;
+  double wall_thickening_percent = 0, base_excursion_mm = 0, apex_motion_mm = 0;
 };
 
 /// One scalar function of the reduced model's frames, with a vector as unknown.

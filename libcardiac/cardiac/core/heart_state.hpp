@@ -12,6 +12,9 @@ struct HeartState {
   /// Pressures of the circulation's vessels, of a network also its other states (CirculationModel); empty
   /// without a circulation.
   polyaffine::Vector vessels_kPa{};
+  /// Active tension of the integration points (second Piola–Kirchhoff stress, kPa) where it is no function of
+  /// time alone; else empty.
+  polyaffine::Vector tension_kPa{};
 
   /// The states of a CirculationModel: volumes, then pressures of vessels.
   polyaffine::Vector circulation() const;

@@ -86,7 +86,8 @@ Vector CoupledHeart::pack(const HeartState& state) const {
 }
 
 HeartState CoupledHeart::unpack(double time_ms, const Vector& y) const {
-  return {time_ms, displacement.of(y), volumes.of(y), pressures.of(y), vessels.of(y)};
+  return {time_ms,         displacement.of(y), volumes.of(y),
+          pressures.of(y), vessels.of(y),      muscle_tension(system, y)};
 }
 
 polyaffine::SystemCost make_consistent(const CoupledHeart& heart, polyaffine::LinearSystem& linear, double t,

@@ -196,7 +196,7 @@ void MuscleTerm::add_tangent(const At& at, double alpha, polyaffine::Tangent& ou
   for_points(n, [&](int q) {
     SarcomereResponse r;
     muscle_->sarcomere->respond({drive[q], fibre.stretch[q], fibre.rate[q]}, states(at.y, q), true, r);
-    const double along = r.by_stretch + alpha * r.by_rate + eliminated->set(q, r, alpha);
+    const double along = r.by_stretch + eliminated->set(q, r, alpha);
     set_stress(q, fibre.stretch[q], muscle_->scale[q] * r.tension_kPa, muscle_->scale[q] * along, stress);
   });
   muscle_->energy->add_tangent({c, of(stress)}, out.field);
@@ -216,14 +216,12 @@ void MuscleTerm::rest(double time_ms, Vector& y) const {
   }
 }
 
-Vector MuscleTerm::tension(const At& at) const {
-  const Vector rate = at.rate_of(c_);
-  const FibreStretch fibre = fibre_stretch(*muscle_, c_.of(at.y), &rate);
-  const Vector drive = muscle_->drive(at.t);
+Vector MuscleTerm::tension(const Vector& y) const {
+  const FibreStretch fibre = fibre_stretch(*muscle_, c_.of(y));
   Vector out(muscle_->num_points());
   for_points(muscle_->num_points(), [&](int q) {
     SarcomereResponse r;
-    muscle_->sarcomere->respond({drive[q], fibre.stretch[q], fibre.rate[q]}, states(at.y, q), false, r);
+    muscle_->sarcomere->respond({0, fibre.stretch[q], 0}, states(y, q), false, r);
     out[q] = muscle_->scale[q] * r.tension_kPa / fibre.stretch[q];
   });
   return out;

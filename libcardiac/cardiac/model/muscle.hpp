@@ -34,7 +34,7 @@ FibreStretch fibre_stretch(const Muscle& muscle, const polyaffine::Vector& c,
 /// adds to a layout, with the residual ż − g(d(t), λ, λ̇, z); the field feels the second
 /// Piola–Kirchhoff stress τ = T/λ along the fibre (ActiveStress). They are solved
 /// apart, point by point: with M = α − ∂g/∂z and h = ∂g/∂λ + α ∂g/∂λ̇,
-///   δz = M⁻¹ (ρ_z + h δλ),  dT/dλ = ∂T/∂λ + α ∂T/∂λ̇ + ∂T/∂z M⁻¹ h
+///   δz = M⁻¹ (ρ_z + h δλ),  dT/dλ = ∂T/∂λ + ∂T/∂z M⁻¹ h
 /// is what the tangent sees, so that stretch and its rate are implicit in a
 /// step of any length. How λ̇ changes with F at a fixed Ḟ is left out of the tangent, as it vanishes with the
 /// step.
@@ -49,7 +49,7 @@ class MuscleTerm : public polyaffine::Term {
   /// States that last at the drive of a time, the wall being held.
   void rest(double time_ms, polyaffine::Vector& y) const;
   /// τ = T/λ of each point, kPa, with its factor.
-  polyaffine::Vector tension(const polyaffine::At& at) const;
+  polyaffine::Vector tension(const polyaffine::Vector& y) const;
 
  private:
   class EliminatedStates;

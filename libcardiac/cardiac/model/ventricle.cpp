@@ -223,6 +223,12 @@ void rest_muscle(const polyaffine::System& system, double time_ms, Vector& y) {
     if (const auto* muscle = dynamic_cast<const MuscleTerm*>(term.get())) muscle->rest(time_ms, y);
 }
 
+Vector muscle_tension(const polyaffine::System& system, const Vector& y) {
+  for (const auto& term : system.terms)
+    if (const auto* muscle = dynamic_cast<const MuscleTerm*>(term.get())) return muscle->tension(y);
+  return {};
+}
+
 polyaffine::System pressed_system(const Ventricle& ventricle, polyaffine::PointValues tension,
                                   const std::vector<polyaffine::FieldTerm::Scale>& pressures_kPa,
                                   double tolerance_mm) {

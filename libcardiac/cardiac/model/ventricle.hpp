@@ -58,6 +58,8 @@ struct Ventricle {
   /// Active tension of every point at a time, kPa; empty where it is no function of time alone.
   polyaffine::PointValues tension() const;
   polyaffine::Vector tension_at(double time_ms) const;
+  /// Whose law makes stress of tension: the wall, or the muscle beside it.
+  const polyaffine::FieldEnergy& active() const { return muscle ? *muscle->energy : *wall; }
 };
 
 /// The cavity behind a surface, on functions.
@@ -89,6 +91,8 @@ polyaffine::System wall_system(const Ventricle& ventricle, polyaffine::PointValu
 void add_states(const Ventricle& ventricle, const scene::Time& time, polyaffine::System& system);
 /// Sets the states of sarcomeres to those that last at the drive of a time, for the wall that y describes.
 void rest_muscle(const polyaffine::System& system, double time_ms, polyaffine::Vector& y);
+/// HeartState::tension_kPa of a state of such a system; empty without sarcomeres.
+polyaffine::Vector muscle_tension(const polyaffine::System& system, const polyaffine::Vector& y);
 
 /// The same under pressures p(t) in the cavities, − Σ p ∂V/∂c. Cavities without a pressure have none.
 polyaffine::System pressed_system(const Ventricle& ventricle, polyaffine::PointValues tension,

@@ -19,7 +19,7 @@ struct GlobalColumn {
   double& value(GlobalStrain& of) const { return own ? of.*own : of.*layers.*layer; }
 };
 
-inline const std::array<GlobalColumn, 12> kGlobalStrain{{
+inline const std::array<GlobalColumn, 13> kGlobalStrain{{
     {"mean_longitudinal_percent", "gls_percent", &GlobalStrain::gls_percent},
     {"mean_circumferential_percent", "gcs_percent", &GlobalStrain::gcs_percent},
     {"mean_radial_percent", "grs_percent", &GlobalStrain::grs_percent},
@@ -38,6 +38,7 @@ inline const std::array<GlobalColumn, 12> kGlobalStrain{{
      &LayerStrain::epicardial_percent},
     {"wall_thickening_percent", "wall_thickening_percent", &GlobalStrain::wall_thickening_percent},
     {"base_excursion_mm", "base_excursion_mm", &GlobalStrain::base_excursion_mm},
+    {"apex_motion_mm", "apex_motion_mm", &GlobalStrain::apex_motion_mm},
 }};
 
 }  // namespace cardiac

@@ -51,7 +51,7 @@ void add_steps(const Ventricle& ventricle, const HeartPath& path, EnergyBalance&
   const Vector& weights = wall.table().weights;
   const auto active_stress = [&](const HeartState& state, const Matrix& F) {
     const Vector tension = active_tension(ventricle, path, state);
-    return polyaffine::driven_stress(wall, F, as_state(tension));
+    return polyaffine::driven_stress(ventricle.active(), F, as_state(tension));
   };
   const polyaffine::PackedField deformation(wall.table());
   Matrix F = deformation.at(path.steps.front().c);

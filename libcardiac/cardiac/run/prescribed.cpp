@@ -220,7 +220,9 @@ class WallInTime {
 
   HeartState state(double t, const Vector& y) const {
     if (heart_) return heart_->unpack(t, y);
-    return state_of(ventricle_, t, system_.layout.field().of(y), at_time(pressures_kPa_, t));
+    HeartState out = state_of(ventricle_, t, system_.layout.field().of(y), at_time(pressures_kPa_, t));
+    out.tension_kPa = muscle_tension(system_, y);
+    return out;
   }
   HeartState at(double t) const {
     if (t <= 0) return state(0, start_);

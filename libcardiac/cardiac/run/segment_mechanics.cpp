@@ -57,7 +57,7 @@ class MechanicsGauge {
     WallState out{of.time_ms, deformation_.at(of.c), {}, {}};
     const Vector tension = active_tension(told_, path_, of);
     out.elastic = polyaffine::elastic_stress(*told_.wall, out.F, pressure(of.c));
-    out.active = polyaffine::driven_stress(*told_.wall, out.F,
+    out.active = polyaffine::driven_stress(told_.active(), out.F,
                                            {tension.data(), static_cast<std::size_t>(tension.size())});
     return out;
   }

@@ -74,6 +74,7 @@ ContourGauge::ContourGauge(const TetMesh& mesh, const VentricularCoordinates& co
   }
   thickness_ed_ = thickness(x_ed);
   if (!rim_.empty()) height_ed_ = height(x_ed);
+  apex_ed_ = x_ed.col(apex_);
 }
 
 void ContourGauge::add_sheets(const TetMesh& mesh, const VentricularCoordinates& coordinates,
@@ -181,6 +182,7 @@ void ContourGauge::measure(const Points& x, GlobalStrain& out) const {
   }
   out.wall_thickening_percent = 100 * (thickness(x) / thickness_ed_ - 1);
   out.base_excursion_mm = rim_.empty() ? kNone : height_ed_ - height(x);
+  out.apex_motion_mm = (x.col(apex_) - apex_ed_).norm();
 }
 
 }  // namespace cardiac

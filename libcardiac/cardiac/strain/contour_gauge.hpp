@@ -25,7 +25,7 @@ namespace cardiac {
 ///   (A_i + √(A_i A_o) + A_o)/3 (exact for a spherical shell), of the same segments without the apex.
 /// - Base excursion: how much closer the endocardial rim of the base (mean of its vertices; of the right
 ///   ventricle that of the free wall) has come to the apex (the epicardial vertex lowest in the mesh) along
-///   the long axis, mm, positive towards the apex.
+///   the long axis, mm, positive towards the apex. Apex motion: how far that vertex is from where it was, mm.
 class ContourGauge {
  public:
   enum class Side { left, right };
@@ -60,6 +60,7 @@ class ContourGauge {
   int apex_ = 0;
   std::array<std::vector<double>, 3> longitudinal_ed_, circumferential_ed_;  ///< lengths of the lines, mm
   double thickness_ed_ = 0, height_ed_ = 0;
+  polyaffine::Vec3 apex_ed_ = polyaffine::Vec3::Zero();
 };
 
 }  // namespace cardiac

@@ -98,7 +98,7 @@ TEST(Tables, GlobalStrainHasARowATimeAndVentricle) {
                                 "midwall_longitudinal_percent,epicardial_longitudinal_percent,"
                                 "endocardial_circumferential_percent,midwall_circumferential_percent,"
                                 "epicardial_circumferential_percent,wall_thickening_percent,"
-                                "base_excursion_mm\n0,lv,0,"));
+                                "base_excursion_mm,apex_motion_mm\n0,lv,0,"));
   EXPECT_EQ(lines(table), 1 + 81);
   r.ventricles.push_back(r.ventricles[0]);
   r.ventricles[1].name = "rv";

@@ -82,6 +82,7 @@ TEST(ContourGauge, LongitudinalIsTheArcFromBaseRoundTheApexToBase) {
   // The rim lies at z = 5, the epicardial apex at −20 mm, where the mesh has a vertex within half a
   // millimetre.
   EXPECT_NEAR(g.base_excursion_mm, 0.2 * 25, 0.05);
+  EXPECT_NEAR(g.apex_motion_mm, 0.2 * 20, 0.05);
 }
 
 // The wall moves inwards by 1.4 (1 − t) mm: at the middles of the thirds of the cavity's 22 mm, rings of
