@@ -18,6 +18,12 @@ nlohmann::json fixed_sections(const Protocol& protocol) {
   return {all["mesh"], all["anatomy"], all["reduction"]};
 }
 
+// What the stress-free shape of an imaged heart depends on beside these.
+nlohmann::json passive_sections(const Protocol& protocol) {
+  nlohmann::json all = resolved_json(protocol);
+  return {all["tissue"], all.contains("region") ? all["region"] : nlohmann::json()};
+}
+
 }  // namespace
 
 Protocol load_model(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
@@ -26,6 +32,8 @@ Protocol load_model(const std::filesystem::path& file, const std::vector<std::st
   all.insert(all.end(), overrides.begin(), overrides.end());
   Protocol out = parse_protocol(model.protocol, model.source, all);
   out.heart = model.heart;
+  const bool is_unloaded = out.imaged.has_value();
+  out.imaged.reset();  // the heart of the file is the stress-free one
   const Protocol learned = parse_protocol(model.protocol, model.source, model.overrides);
   if (fixed_sections(out) != fixed_sections(learned) || structure_key(*out.heart, out) != model.structure)
     throw polyaffine::InputError(file.string() +
@@ -34,6 +42,11 @@ Protocol load_model(const std::filesystem::path& file, const std::vector<std::st
                                  "contracts, expected the values that the model was learned for (loads, "
                                  "contraction, tissue parameters and "
                                  "regions may differ)");
+  if (is_unloaded && passive_sections(out) != passive_sections(learned))
+    out.warnings.push_back("mesh.pressure_mmHg: the stress-free shape in " + file.string() +
+                           " is that of the wall that it was learned with; under another tissue or other "
+                           "regions the image would "
+                           "have another one");
   TunedModel tuned = *model.tuned;
   complete(*out.heart, out, tuned);
   out.tuned = std::make_shared<const TunedModel>(std::move(tuned));

@@ -15,6 +15,7 @@
 #include "schema_command.hpp"
 #include "segment_command.hpp"
 #include "strain_command.hpp"
+#include "unload_command.hpp"
 #include "usage.hpp"
 #include "validate_command.hpp"
 
@@ -40,6 +41,7 @@ int run_program(int argc, char** argv) {
   app.require_subcommand(1);
   cardiac::app::add_run_command(app);
   cardiac::app::add_reduce_command(app);
+  cardiac::app::add_unload_command(app);
   cardiac::app::add_mesh_command(app);
   cardiac::app::add_segment_command(app);
   cardiac::app::add_strain_command(app);

@@ -6,7 +6,9 @@
 #include <memory>
 #include <sstream>
 
+#include <cardiac/report/filling.hpp>
 #include <cardiac/run/tuned_model.hpp>
+#include <cardiac/run/unload.hpp>
 #include <polyaffine/core/error.hpp>
 
 #include "example_data.hpp"
@@ -42,6 +44,17 @@ void print_round(const TuningRound& r) {
             << (by_segments ? r.segments : r.protocol).load << std::endl;
 }
 
+// A model file holds the stress-free shape alone, where nothing tells the place of a site in the image.
+void check_unloading(const Protocol& protocol) {
+  if (!protocol.imaged || !protocol.activation) return;
+  if (protocol.activation->sites_mm.empty() && protocol.activation->mode != scene::ActivationMode::table)
+    return;
+  throw polyaffine::InputError(
+      "activation: found places in mm (sites_mm or times_file) beside mesh.pressure_mmHg, which a model file "
+      "does not keep; expected activation.site_segments or mode = \"uniform\", or the mesh of `cardiac "
+      "unload` without mesh.pressure_mmHg");
+}
+
 std::string number(double value) {
   std::ostringstream out;
   out << std::setprecision(17) << value;
@@ -58,6 +71,7 @@ void reduce(const ReduceOptions& options) {
   Protocol protocol = load_input(source, overrides);
   if (protocol.reduction.method != scene::Method::polyaffine)
     throw polyaffine::InputError("reduction.method: found fem, expected polyaffine for a reduced model");
+  check_unloading(protocol);
   print_warnings(protocol.warnings);
   const InterruptGuard interrupt;
   {
@@ -65,6 +79,12 @@ void reduce(const ReduceOptions& options) {
     RunControl control;
     control.progress = [&line](const std::string& what, double fraction) { line(what, fraction); };
     control.stop_reason = [&interrupt] { return interrupt.reason(); };
+    if (protocol.imaged) {
+      const Unloading found = unload(protocol, control);
+      static_cast<Scene&>(protocol) = unloaded_scene(protocol, found.heart);
+      print_warnings(found.warnings);
+      if (!options.quiet) std::cout << unloading_text(found.result) << std::endl;
+    }
     if (!options.quiet) print_head();
     control.on_round = [&options](const TuningRound& round) {
       if (!options.quiet) print_round(round);

@@ -16,11 +16,11 @@ namespace fs = std::filesystem;
 
 bool is_result(const std::string& file) {
   constexpr std::array kNames{
-      "summary.json", "report.html",     "strain.csv",        "strain_peaks.csv",
-      "affine.csv",   "cavity.csv",      "strain_curves.svg", "pv_loop.svg",
-      "wall.svg",     "heart.pvd",       "global_strain.csv", "control_nodes.csv",
-      "frames.csv",   "circulation.csv", "time_curves.svg",   "strain_curves_right.svg",
-      "mechanics.csv"};
+      "summary.json",  "report.html",     "strain.csv",        "strain_peaks.csv",
+      "affine.csv",    "cavity.csv",      "strain_curves.svg", "pv_loop.svg",
+      "wall.svg",      "heart.pvd",       "global_strain.csv", "control_nodes.csv",
+      "frames.csv",    "circulation.csv", "time_curves.svg",   "strain_curves_right.svg",
+      "mechanics.csv", "filling.csv",     "filling.svg"};
   static const std::regex numbered("heart_[0-9]{4,}\\.vtu|bullseye_[a-z_]+\\.svg");
   return std::ranges::find(kNames, file) != kNames.end() || std::regex_match(file, numbered);
 }

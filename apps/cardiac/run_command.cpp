@@ -14,12 +14,14 @@
 #include <cardiac/protocol/names.hpp>
 #include <cardiac/protocol/plan.hpp>
 #include <cardiac/report/figures.hpp>
+#include <cardiac/report/filling.hpp>
 #include <cardiac/report/haemodynamics_text.hpp>
 #include <cardiac/report/page.hpp>
 #include <cardiac/report/summary.hpp>
 #include <cardiac/report/tables.hpp>
 #include <cardiac/run/checkpoint.hpp>
 #include <cardiac/run/simulate.hpp>
+#include <cardiac/run/unload.hpp>
 #include <cardiac/run/verification.hpp>
 #include <cardiac/scene/given_key.hpp>
 #include <cardiac/training/tuned_model.hpp>
@@ -120,6 +122,7 @@ std::string seconds_text(double seconds) {
 }
 
 void print_result(const BeatResult& result, double verification_s, const std::filesystem::path& out) {
+  if (result.unloading) std::cout << unloading_text(*result.unloading) << '\n';
   std::cout << std::fixed << std::setprecision(1);
   for (const VentricleSummary& v : result.ventricles) {
     if (!result.has_beat && !v.samples.empty() && std::isfinite(v.samples.back().volume_mL))
@@ -264,6 +267,7 @@ void run(RunOptions options) {
     outcome = simulate(protocol, control);
   }
   auto& [ventricle, nodes, path, result] = outcome;
+  if (protocol.imaged) static_cast<Scene&>(protocol) = unloaded_scene(protocol, ventricle.anatomy);
   result.wall_setup_s = setup_s;
   result.plan = items;
   print_warnings(result.warnings);

@@ -23,6 +23,7 @@ Anatomy make_anatomy(polyaffine::TetMesh mesh, const AnatomyOptions& options, Fi
   out.fibres = std::move(fibres);
   out.coordinates = std::make_shared<VentricularCoordinates>(out.mesh, out.labels, options);
   out.segment = segment_tets(out.mesh, *out.coordinates);
+  out.options = options;
   return out;
 }
 

@@ -23,6 +23,7 @@ struct Anatomy {
   std::vector<int> segment;              ///< AHA segment of each tet
   FibreFunction fibres;                  ///< empty: a rule in the ventricular coordinates
   polyaffine::Vector epicardial_weight;  ///< of each vertex, ≥ 0: how firmly it is held; empty: 1
+  AnatomyOptions options;                ///< that it was made with; those of a file that was read are lost
 };
 
 /// The boundary of the mesh carries the labels kEndocardium, kEpicardium and kBase, with two ventricles also

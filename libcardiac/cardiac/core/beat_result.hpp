@@ -183,6 +183,25 @@ struct VerificationInstant {
   double wall_time_s = 0;
 };
 
+/// A cavity of a heart whose mesh was imaged under pressure, and its passive filling from the stress-free
+/// shape.
+struct UnloadedCavity {
+  std::string name;  ///< "lv" or "rv"
+  double pressure_mmHg = 0, imaged_mL = 0;
+  double unloaded_mL = 0, reloaded_mL = 0;         ///< free of stress, and under the pressure again
+  std::vector<double> pressures_mmHg, volumes_mL;  ///< filling; of both ventricles in proportion
+};
+
+/// How the stress-free shape was found (unload), and how far the shape reloaded from it is from the image.
+struct UnloadingResult {
+  std::string method;  ///< "polyaffine" or "fem": what inflated
+  int inflations = 0;
+  double distance_mm = 0, mean_distance_mm = 0;  ///< largest and root mean square over the vertices
+  double longest_way_mm = 0;                     ///< of a vertex from the image to the stress-free shape
+  double wall_time_s = 0;
+  std::vector<UnloadedCavity> cavities;  ///< the left ventricle's first
+};
+
 /// Everything that the tables, figures and pages tell of a run; no mesh in it.
 struct BeatResult {
   std::string method;     ///< "polyaffine" or "fem"
@@ -204,6 +223,7 @@ struct BeatResult {
   std::optional<GlobalStrain> right_strain;  ///< of the right free wall at the same time
   std::optional<EnergyBalance> energy;       ///< of the last beat; none without contraction
   double min_det_F = 1, max_det_F = 1;
+  std::optional<UnloadingResult> unloading;      ///< of a heart imaged under pressure
   std::vector<EstimatedError> estimated_errors;  ///< of a tuned model
   std::vector<VerificationInstant> verification;
   std::vector<PlanItem> plan;

@@ -26,6 +26,9 @@ class DirectionField {
   /// Share of the tets in which two vectors of vertices are more than 40° apart; 0 for a field of tets.
   double ambiguous_share() const;
   Eigen::Index num_tets() const { return tets_.cols(); }
+  bool of_tets() const { return !turning_.empty(); }
+  /// The unit vectors as they were given, one a vertex or tet.
+  const polyaffine::Points& vectors() const { return given_; }
 
  private:
   friend class polyaffine::ArchiveAccess;

@@ -1,10 +1,12 @@
 #include "cardiac/fibres/file_fibres.hpp"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <cmath>
 #include <sstream>
 
 #include <polyaffine/core/error.hpp>
+#include <polyaffine/mesh/tet_gradients.hpp>
 
 namespace cardiac {
 
@@ -104,6 +106,37 @@ bool FileFibres::is_whole() const {
     return !field || field->num_tets() == fibre_->num_tets();
   };
   return fibre_ && fits(sheet_) && fits(normal_);
+}
+
+FileFibres FileFibres::moved(const polyaffine::TetMesh& mesh, const polyaffine::Points& points) const {
+  const polyaffine::TetMesh there(points, mesh.tets());
+  FileFibres out = *this;
+  const auto move = [&](const std::optional<DirectionField>& from, bool normals,
+                        std::optional<DirectionField>& to) {
+    if (!from) return;
+    const std::vector<Mat3> F = from->of_tets() ? polyaffine::tet_gradients(mesh, points)
+                                                : polyaffine::vertex_gradients(mesh, points);
+    polyaffine::Matrix vectors = from->vectors();
+    for (Eigen::Index i = 0; i < vectors.cols(); ++i) {
+      Mat3 by = F[static_cast<std::size_t>(i)];
+      if (normals) by = by.inverse().transpose().eval();
+      const Vec3 v = vectors.col(i);
+      vectors.col(i) = by.lazyProduct(v);
+    }
+    to.emplace(there, vectors, from->of_tets());
+  };
+  move(fibre_, false, out.fibre_);
+  move(sheet_, false, out.sheet_);
+  move(normal_, true, out.normal_);
+  return out;
+}
+
+std::map<std::string, const DirectionField*> FileFibres::fields() const {
+  std::map<std::string, const DirectionField*> out;
+  for (const auto& [name, field] :
+       {std::pair{"fibre", &fibre_}, {"sheet", &sheet_}, {"sheet_normal", &normal_}})
+    if (*field) out[name] = &**field;
+  return out;
 }
 
 FibreAxes FileFibres::at(const VentricularCoordinates& coordinates, const std::vector<int>& tet,

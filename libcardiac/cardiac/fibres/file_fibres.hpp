@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,6 +35,12 @@ class FileFibres {
   /// See DirectionField::ambiguous_share.
   double ambiguous_share() const { return ambiguous_share_; }
   Eigen::Index num_tets() const { return fibre_->num_tets(); }
+
+  /// The same fibres when the vertices of their mesh move to `points` (mm): F f, F s and F⁻ᵀ n with the
+  /// gradient F of the motion in a tet, at a vertex its mean over the tets about it.
+  FileFibres moved(const polyaffine::TetMesh& mesh, const polyaffine::Points& points) const;
+  /// The fields that are used, by their names "fibre", "sheet" and "sheet_normal".
+  std::map<std::string, const DirectionField*> fields() const;
 
  private:
   friend class polyaffine::ArchiveAccess;

@@ -1,3 +1,4 @@
+#include <cardiac/core/units.hpp>
 #include <cardiac/protocol/conditions.hpp>
 #include <cardiac/protocol/key_binding.hpp>
 
@@ -19,14 +20,13 @@ Table mesh_table() {
   TableBuilder table("mesh", "Geometry of the ventricle: a mesh file or an idealised shape.",
                      &Protocol::mesh);
   table
-      .key(
-          "file", &Mesh::file,
-          {.meaning =
-               "tetrahedral mesh (.vtu, .vtk, Gmsh .msh, openCARP .pts), path relative to the protocol "
-               "file (in --set: to the current folder); its shape is taken as free of stress (unloaded): one "
-               "imaged under pressure is filled once more, and its volumes come out too large",
-           .absent = "an idealised shape is meshed",
-           .path = true})
+      .key("file", &Mesh::file,
+           {.meaning =
+                "tetrahedral mesh (.vtu, .vtk, Gmsh .msh, openCARP .pts), path relative to the protocol "
+                "file (in --set: to the current folder); its shape is taken as free of stress (unloaded) "
+                "unless pressure_mmHg says under which pressure it was imaged",
+            .absent = "an idealised shape is meshed",
+            .path = true})
       .key("length_unit", &Mesh::length_unit,
            {.meaning = "length unit of the coordinates in the mesh file",
             .absent = "required with file, never guessed",
@@ -45,6 +45,24 @@ Table mesh_table() {
             .meaning = "target edge length of the tetrahedra of an idealised shape",
             .absent = "the shape's own size",
             .used_with = "shape"})
+      .key("pressure_mmHg", &Mesh::pressure_kPa,
+           {.unit = "mmHg",
+            .range = {0, 60},
+            .meaning =
+                "pressure of the (left) cavity under which the relaxed heart has the shape of the mesh, such "
+                "as the end-diastolic pressure at an image of end diastole: the stress-free shape is found "
+                "first, and everything is computed on it",
+            .source = "Sellier 2011; Rausch et al. 2017",
+            .absent = "the shape of the mesh is free of stress"},
+           {kPa_per_mmHg})
+      .key("right_pressure_mmHg", &Mesh::right_pressure_kPa,
+           {.unit = "mmHg",
+            .range = {0, 60},
+            .meaning = "the same of the right cavity",
+            .absent = "0 mmHg, with a warning where there is a right cavity",
+            .used_with = "pressure_mmHg",
+            .also = {two_ventricles()}},
+           {kPa_per_mmHg})
       .key("surface_file", &Mesh::surface_file,
            {.meaning =
                 "second file with the labelled surface triangles (.vtu, .vtp, .vtk), in the unit of the "

@@ -190,6 +190,10 @@ Protocol parse_protocol(const std::string& text, const std::filesystem::path& so
   const Place place = place_in(entries, source.string());
   fill_scheme(protocol);
   check_rules(protocol, place);
+  if (const double left = protocol.mesh.pressure_kPa.value_or(0),
+      right = protocol.mesh.pressure_kPa ? protocol.mesh.right_pressure_kPa.value_or(0) : 0;
+      left > 0 || right > 0)
+    protocol.imaged = ImagedUnder{left, right};
   build_network(protocol, place);
   read_given_files(protocol, place);
   fill_presets(protocol, protocol.anatomy.scheme == Scheme::aha29);

@@ -125,6 +125,8 @@ std::vector<PlanItem> plan(const Protocol& protocol, bool verify) {
       regions_item(protocol),
       reduction_item(protocol.reduction, *protocol.anatomy.scheme),
       {"full order", !reduced || verify, reduced && verify ? "--verify" : method}};
+  if (protocol.imaged)
+    items.push_back({"unloading", true, "mesh.pressure_mmHg: the stress-free shape of the imaged mesh"});
   if (reduced && verify) {
     items.push_back({"verification", true, "--verify: full order at end diastole and end systole"});
   } else {

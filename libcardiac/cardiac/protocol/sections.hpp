@@ -31,6 +31,7 @@ struct Mesh {
   std::optional<std::string> surface_file, label_array, region_array;
   std::optional<std::vector<std::string>> surface_files;  ///< NAME=FILE, one surface each
   std::optional<Labels> endo_label, epi_label, base_label, rv_endo_label, region;
+  std::optional<double> pressure_kPa, right_pressure_kPa;  ///< that the shape was imaged under
 };
 
 enum class Scheme { aha17, aha29 };

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <cardiac/report/bullseye.hpp>
+#include <cardiac/report/filling.hpp>
 #include <cardiac/report/protocol_facts.hpp>
 #include <cardiac/report/pv_loop.hpp>
 #include <cardiac/report/strain_curves.hpp>
@@ -84,7 +85,7 @@ std::vector<Figure> strain_bullseyes(const BeatResult& result, const std::vector
 /// Every name that figures() may give.
 std::vector<std::string> figure_names() {
   std::vector<std::string> names{"bullseye_activation.svg", "strain_curves.svg", "strain_curves_right.svg",
-                                 "time_curves.svg", "pv_loop.svg"};
+                                 "time_curves.svg",         "pv_loop.svg",       "filling.svg"};
   for (const NormalStrain& s : kStrains)
     for (const char* of : {"", "peak_", "right_"})
       names.push_back(std::string("bullseye_") + of + s.name + ".svg");
@@ -123,6 +124,7 @@ std::vector<Figure> figures(const BeatResult& result, const RunInfo& info) {
     list.push_back({"time_curves.svg", time_curves_svg(result)});
     list.push_back({"pv_loop.svg", pv_loop_svg(result)});
   }
+  if (result.unloading) list.push_back({"filling.svg", filling_svg(*result.unloading)});
   return list;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <cardiac/report/figures.hpp>
+#include <cardiac/report/filling.hpp>
 #include <cardiac/report/page_numbers.hpp>
 #include <cardiac/report/page_parts.hpp>
 #include <cardiac/report/page_style.hpp>
@@ -69,12 +70,13 @@ std::string activation_sentence(const BeatResult& r) {
 }
 
 std::string figure_sections(const BeatResult& r, const RunInfo& info, const std::string& wall_svg) {
-  std::string courses, curves, eyes, peaks, right;
+  std::string courses, curves, eyes, peaks, right, filling;
   for (const Figure& figure : figures(r, info)) {
     const bool eye = figure.file.starts_with("bullseye_");
     std::string& of = figure.file.starts_with("bullseye_peak_")    ? peaks
                       : figure.file.starts_with("bullseye_right_") ? right
                       : eye                                        ? eyes
+                      : figure.file == "filling.svg"               ? filling
                       : figure.file.starts_with("strain_curves")   ? curves
                                                                    : courses;
     of += figure_html(figure);
@@ -96,7 +98,9 @@ std::string figure_sections(const BeatResult& r, const RunInfo& info, const std:
                "systole "
                "and shortens a little afterwards shows that little here: read it beside end systole.",
                "eyes", peaks) +
-         group("Strain " + when, "", "full", curves);
+         group("Strain " + when, "", "full", curves) +
+         group("The unloaded heart", r.unloading ? "The mesh is " + unloading_text(*r.unloading) + "." : "",
+               "full", filling);
 }
 
 std::string segment_table_head(bool has_systole) {
@@ -200,7 +204,7 @@ std::string run_section(const BeatResult& r, const RunInfo& info) {
     rows += "<tr>" + table_cell(name, "left") + table_cell(value, "left") + "</tr>\n";
   };
   row("Method", method_name(r));
-  row("Shape of the mesh", "taken as free of stress (unloaded)");
+  row("Shape of the mesh", r.unloading ? unloading_text(*r.unloading) : "taken as free of stress (unloaded)");
   row("Mesh", count_text(r.mesh_vertices) + " vertices, " + count_text(r.mesh_tets) + " tetrahedra");
   row("Unknowns", count_text(r.dofs));
   if (r.control_nodes > 0) row("Control nodes", count_text(r.control_nodes));

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include <cardiac/report/filling.hpp>
 #include <cardiac/report/global_columns.hpp>
 #include <cardiac/report/text.hpp>
 #include <polyaffine/core/error.hpp>
@@ -108,6 +109,32 @@ Json protocol_of(const RunInfo& info) {
   return protocol;
 }
 
+Json unloading_json(const UnloadingResult& u) {
+  Json cavities = Json::object();
+  for (const UnloadedCavity& c : u.cavities) {
+    Json pressures = Json::array(), volumes = Json::array();
+    for (const double p : c.pressures_mmHg) pressures.push_back(number(p));
+    for (const double V : c.volumes_mL) volumes.push_back(number(V));
+    cavities[c.name] = {{"pressure_mmHg", number(c.pressure_mmHg)},
+                        {"imaged_mL", number(c.imaged_mL)},
+                        {"unloaded_mL", number(c.unloaded_mL)},
+                        {"reloaded_mL", number(c.reloaded_mL)},
+                        {"filling_mmHg", pressures},
+                        {"filling_mL", volumes}};
+    if (c.name == "lv" && c.pressure_mmHg > 0) {
+      cavities[c.name]["klotz_unloaded_mL"] = number(klotz_volume_mL(c.imaged_mL, c.pressure_mmHg, 0));
+      cavities[c.name]["klotz_at_30_mmHg_mL"] = number(klotz_volume_mL(c.imaged_mL, c.pressure_mmHg, 30));
+    }
+  }
+  return {{"method", u.method},
+          {"inflations", u.inflations},
+          {"distance_mm", number(u.distance_mm)},
+          {"mean_distance_mm", number(u.mean_distance_mm)},
+          {"longest_way_mm", number(u.longest_way_mm)},
+          {"wall_time_s", number(u.wall_time_s)},
+          {"cavities", cavities}};
+}
+
 Json lists_of(const BeatResult& r) {
   Json verification = Json::array(), estimates = Json::array(), plan = Json::array(),
        segments = Json::array();
@@ -178,6 +205,7 @@ std::string summary_text(const BeatResult& r, const RunInfo& info) {
                {"min_det_F", number(r.min_det_F)},
                {"max_det_F", number(r.max_det_F)}};
   if (r.right_strain) json["right_strain"] = global_json(*r.right_strain);
+  if (r.unloading) json["unloading"] = unloading_json(*r.unloading);
   json.update(lists_of(r));
   json["protocol"] = protocol_of(info);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -163,6 +163,27 @@ void read_global(const Reader& reader, GlobalStrain& strain) {
   for (const GlobalColumn& quantity : kGlobalStrain) reader.at(quantity.key) >> quantity.value(strain);
 }
 
+void read_unloading(const Reader& reader, UnloadingResult& u) {
+  reader.at("method") >> u.method;
+  reader.at("inflations") >> u.inflations;
+  reader.at("distance_mm") >> u.distance_mm;
+  reader.at("mean_distance_mm") >> u.mean_distance_mm;
+  reader.at("longest_way_mm") >> u.longest_way_mm;
+  reader.at("wall_time_s") >> u.wall_time_s;
+  for (const auto& [name, json] : reader.at("cavities").entries()) {
+    UnloadedCavity& c = u.cavities.emplace_back();
+    c.name = name;
+    json.at("pressure_mmHg") >> c.pressure_mmHg;
+    json.at("imaged_mL") >> c.imaged_mL;
+    json.at("unloaded_mL") >> c.unloaded_mL;
+    json.at("reloaded_mL") >> c.reloaded_mL;
+    for (const Reader& p : json.at("filling_mmHg").items()) p >> c.pressures_mmHg.emplace_back();
+    for (const Reader& V : json.at("filling_mL").items()) V >> c.volumes_mL.emplace_back();
+    if (c.pressures_mmHg.size() != c.volumes_mL.size())
+      json.fail("as many filling_mmHg as filling_mL", "lists of different lengths");
+  }
+}
+
 void read_lists(const Reader& reader, BeatResult& r) {
   for (const Reader& json : reader.at("estimated_errors").items()) {
     EstimatedError& e = r.estimated_errors.emplace_back();
@@ -235,6 +256,7 @@ StoredResult parse_summary(const std::string& text, const std::filesystem::path&
   if (reader.has("right_strain")) read_global(reader.at("right_strain"), r.right_strain.emplace());
   reader.at("min_det_F") >> r.min_det_F;
   reader.at("max_det_F") >> r.max_det_F;
+  if (reader.has("unloading")) read_unloading(reader.at("unloading"), r.unloading.emplace());
   read_lists(reader, r);
   return stored;
 }

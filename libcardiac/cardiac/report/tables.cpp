@@ -7,6 +7,7 @@
 #include <limits>
 
 #include <cardiac/report/csv_writer.hpp>
+#include <cardiac/report/filling.hpp>
 #include <cardiac/report/global_columns.hpp>
 #include <cardiac/report/summary.hpp>
 #include <cardiac/report/text.hpp>
@@ -225,6 +226,7 @@ void write_tables(const BeatResult& result, const RunInfo& info, const std::file
   if (!result.instants.empty() && !result.instants.front().mechanics.empty())
     polyaffine::write_atomically(out / "mechanics.csv", mechanics_table(result));
   polyaffine::write_atomically(out / "cavity.csv", cavity_table(result));
+  if (result.unloading) polyaffine::write_atomically(out / "filling.csv", filling_table(*result.unloading));
   if (!result.circulation.columns.empty())
     polyaffine::write_atomically(out / "circulation.csv", circulation_text(result));
   polyaffine::write_atomically(out / "summary.json", summary);

@@ -1,5 +1,6 @@
 #include "cardiac/run/simulate.hpp"
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +10,7 @@
 #include <cardiac/run/plausibility.hpp>
 #include <cardiac/run/statics.hpp>
 #include <cardiac/run/tuned_model.hpp>
+#include <cardiac/run/unload.hpp>
 #include <cardiac/scene/presets.hpp>
 #include <polyaffine/core/error.hpp>
 #include <polyaffine/core/stopwatch.hpp>
@@ -44,8 +46,13 @@ Outcome simulate(const Scene& of, const RunControl& control) {
   fill_presets(scene, axes_of(*scene.heart, scene, told_with_the_result) == scene::Axes::cartesian);
   Outcome out;
   double setup_s = 0, solve_s = 0;
+  std::optional<Unloading> unloaded;
   {
     const polyaffine::Stopwatch watch(setup_s);
+    if (scene.imaged) {
+      unloaded = unload(scene, control);
+      scene = unloaded_scene(scene, unloaded->heart);
+    }
     out.model = build_ventricle(scene.heart, scene, scene.reduction.method, control);
     out.nodes = segment_nodes(*scene.heart, scene);
   }
@@ -61,8 +68,11 @@ Outcome simulate(const Scene& of, const RunControl& control) {
     for (std::string& text : tuned_warnings(*out.model.tuned, scene, errors))
       out.path.warnings.push_back(std::move(text));
   }
+  if (unloaded)
+    out.path.warnings.insert(out.path.warnings.begin(), unloaded->warnings.begin(), unloaded->warnings.end());
   out.result = describe_path(out.model, out.nodes, scene, out.path);
   out.result.estimated_errors = std::move(errors);
+  if (unloaded) out.result.unloading = std::move(unloaded->result);
   out.result.wall_setup_s = setup_s;
   out.result.wall_solve_s = solve_s;
   refuse_absurdities(out.result, control.keep_absurd);

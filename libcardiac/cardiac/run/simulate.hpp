@@ -16,9 +16,11 @@ struct Outcome {
 };
 
 /// Computes a scene: beats where it has a circulation (run_beats), else the loading and contraction under its
-/// pressures (run_prescribed). A path by trained integration points that are not to be trusted (distrust) is
-/// computed anew with all points, and a result that is absurd is not a completed one. Throws InputError as
-/// build_ventricle and for a scene without a heart.
+/// pressures (run_prescribed). Of a heart that was imaged under pressure the stress-free shape is found first
+/// (unload), and everything is computed on that: it is the anatomy of the model. A path by trained
+/// integration points that are not to be trusted (distrust) is computed anew with all points, and a result
+/// that is absurd is not a completed one. Throws InputError as build_ventricle and for a scene without a
+/// heart; ComputationError as unload.
 Outcome simulate(const Scene& scene, const RunControl& control = {});
 
 }  // namespace cardiac

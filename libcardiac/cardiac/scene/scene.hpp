@@ -24,6 +24,11 @@ namespace cardiac::scene {
 
 using Vector3 = std::array<double, 3>;
 
+/// The pressures of the cavities under which the heart has the shape that its mesh has, as of an image.
+struct ImagedUnder {
+  double pressure_kPa = 0, right_pressure_kPa = 0;
+};
+
 enum class Method { polyaffine, fem };
 enum class Preset { fast, accurate, tuned };
 enum class Weights { sigmoid, tents };
@@ -225,7 +230,8 @@ namespace cardiac {
 /// (load_protocol).
 struct Scene {
   std::shared_ptr<const Anatomy> heart;     ///< the mesh with coordinates and segments; needed by simulate
-  std::shared_ptr<const TunedModel> tuned;  ///< learned for it before; null: preset tuned learns it
+  std::optional<scene::ImagedUnder> imaged;  ///< absent: the heart is free of stress (see unload)
+  std::shared_ptr<const TunedModel> tuned;   ///< learned for it before; null: preset tuned learns it
   scene::Reduction reduction;
   scene::Tissue tissue;
   std::optional<scene::Fibres> fibres;
