@@ -44,6 +44,7 @@ Scene passive_scene(const Scene& scene) {
   out.imaged.reset();
   std::vector<std::string> told_with_the_result;
   out.reduction.axes = axes_of(*scene.heart, scene, told_with_the_result);
+  fill_presets(out, out.reduction.axes == scene::Axes::cartesian);
   if (is_tuned(scene)) {
     out.reduction.method = scene::Method::fem;
     out.tuned = nullptr;

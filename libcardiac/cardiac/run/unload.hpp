@@ -22,7 +22,7 @@ inline constexpr int kMostInflations = 15;
 /// stress-free shape is found (0.026 mm of a human left ventricle); beyond which a warning tells it; and
 /// beyond which none was found. Small jumps of a reduced model from shape to shape, on which its functions
 /// depend, can keep it above the first.
-inline constexpr double kUnloaded = 2e-4, kNotQuite = 1e-3, kNotUnloaded = 1e-2;
+inline constexpr double kUnloaded = 2e-4, kNotQuite = 7.5e-4, kNotUnloaded = 1e-2;
 
 /// The shape that the heart of a scene has without load, so that its passive wall under the pressures of
 /// scene.imaged has the shape of the mesh: X + u(X) = x at every vertex. Fixed-point iteration X ← x − u(X)
