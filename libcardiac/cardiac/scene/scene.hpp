@@ -229,7 +229,7 @@ namespace cardiac {
 /// and told. A part that is absent is not built. A value may be put together in C++ or be read from a text
 /// (load_protocol).
 struct Scene {
-  std::shared_ptr<const Anatomy> heart;     ///< the mesh with coordinates and segments; needed by simulate
+  std::shared_ptr<const Anatomy> heart;      ///< the mesh with coordinates and segments; needed by simulate
   std::optional<scene::ImagedUnder> imaged;  ///< absent: the heart is free of stress (see unload)
   std::shared_ptr<const TunedModel> tuned;   ///< learned for it before; null: preset tuned learns it
   scene::Reduction reduction;
