@@ -41,9 +41,9 @@ int run_program(int argc, char** argv) {
   app.require_subcommand(1);
   cardiac::app::add_run_command(app);
   cardiac::app::add_reduce_command(app);
-  cardiac::app::add_unload_command(app);
   cardiac::app::add_mesh_command(app);
   cardiac::app::add_segment_command(app);
+  cardiac::app::add_unload_command(app);
   cardiac::app::add_strain_command(app);
   cardiac::app::add_report_command(app);
   cardiac::app::add_schema_command(app);
