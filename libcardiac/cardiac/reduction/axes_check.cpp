@@ -65,7 +65,7 @@ Found found_on(bool two_ventricles, double misfit_deg) {
 }  // namespace
 
 std::string moving_base_warning(const Scene& scene) {
-  if (scene.boundary.base == scene::Base::clamped || is_tuned(scene)) return "";
+  if (scene.boundary.base == scene::Base::clamped) return "";
   return "boundary.base: where the base moves, a reduced model tells volumes and strain as it does "
          "otherwise, "
          "but where the heart lies as a whole may be a third of its displacement off full order; "

@@ -50,7 +50,7 @@ void archive(Archive& a, TuningRound& x) {
 namespace {
 
 const polyaffine::ArchiveFormat kModel{"cardiac heart model", 2}, kCached{"cardiac tuned model", 2};
-constexpr const char* kKind = "tuned-5";  // the number changes when the training does
+constexpr const char* kKind = "tuned-6";  // the number changes when the training does
 
 // Numbers that are of single precision already.
 template <class Archive>
@@ -194,8 +194,6 @@ std::string tuned_key(const Anatomy& anatomy, const Scene& scene) {
   for (const auto& r : scene.regions)
     key["regions"].push_back(
         {r.segments, r.stiffness_factor, r.tension_factor, r.activation_delay_ms, r.border_width_percent});
-  if (const scene::Boundary& b = scene.boundary; b.base_moves())
-    key["base"] = {b.base_normal_stiffness_kPa_per_mm, b.base_inplane_stiffness_kPa_per_mm};
   key["time"] = {scene.time.beat_ms, scene.time.duration_ms};
   key["tuning"] = {scene.reduction.accuracy_percent, scene.reduction.affine_frames};
   return structure_key(anatomy, scene) + ' ' + rule_key(anatomy, scene) + ' ' + key.dump();

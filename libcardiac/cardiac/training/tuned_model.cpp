@@ -268,12 +268,6 @@ Discretisation with_points_of(const TunedModel& model, const NestedSpace& space,
   points.points = model.wall;
   points.cavities = model.cavities;
   points.epicardium_points = model.epicardium;
-  // What closes and holds a base that moves is no matter of training.
-  if (scene.boundary.base_moves()) {
-    const Discretisation full = full_discretisation(anatomy, scene);
-    points.base_points = full.base_points;
-    for (std::size_t k = 0; k < points.cavities.size(); ++k) points.cavities[k].rim = full.cavities[k].rim;
-  }
   Discretisation out = nested_discretisation(anatomy, scene, space, points);
   out.pressure_mass = pressure_mass;
   return out;
