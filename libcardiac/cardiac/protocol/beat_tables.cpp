@@ -123,7 +123,7 @@ Table contraction_table() {
                               "every heart rate",
                    .source = source + ": 484 − 160 ms; Bazett 1920: the square root",
                    .absent = "324 ms √(beat / 800 ms), so that systole follows time.heart_rate_bpm; above "
-                             "180 a minute in proportion to the beat"}))
+                             "300 a minute in proportion to the beat"}))
       .key("switch_width_ms", &Contraction::switch_width_ms,
            bestel({.unit = "ms",
                    .range = {0.1, 500},
@@ -131,8 +131,8 @@ Table contraction_table() {
                    .source = source}))
       .key("time_factor", &Contraction::time_factor,
            any({.range = above_zero(10),
-                .meaning = "factor on all times of the contraction that are not given: its rates are divided "
-                           "by it, its durations multiplied",
+                .meaning = "factor on the times behind the rates of the contraction and the width of its "
+                           "switches: rates are divided by it",
                 .source = "convention: rates of a human heart are of human muscle",
                 .absent = "1, above 180 beats a minute beat / 333 ms"}))
       .key("tension_file", &Contraction::tension_file,
@@ -165,7 +165,7 @@ Table contraction_table() {
                     .meaning = "stiffness ks in series with the cross-bridges",
                     .source = "Genet et al. 2023: 1e8 Pa"}))
       .key("bridge_viscosity_kPa_ms", &Contraction::bridge_viscosity_kPa_ms,
-           bridges({.unit = "kPa ms",
+           bridges({.unit = "kPa·ms",
                     .range = above_zero(1e5),
                     .meaning = "viscosity µ beside the cross-bridges",
                     .source = "Genet et al. 2023: 70 Pa s"}))
@@ -205,13 +205,13 @@ Table contraction_table() {
                  .range = above_zero(1000),
                  .meaning = "time constant of its rise, less than calcium_decay_ms",
                  .source = "Regazzoni, Dedè, Quarteroni 2020: 20 ms",
-                 .absent = "20 ms √(beat / 800 ms), as activation_duration_ms"}))
+                 .absent = "time_factor 20 ms √(beat / 800 ms), of beats of at least 333 ms"}))
       .key("calcium_decay_ms", &Contraction::calcium_decay_ms,
            land({.unit = "ms",
                  .range = above_zero(5000),
                  .meaning = "time constant of its decay",
                  .source = "Regazzoni, Dedè, Quarteroni 2020: 50 ms",
-                 .absent = "50 ms √(beat / 800 ms), as activation_duration_ms"}))
+                 .absent = "time_factor 50 ms √(beat / 800 ms), of beats of at least 333 ms"}))
       .key("calcium_file", &Contraction::calcium_file,
            land({.meaning = "table (.csv) of one beat of calcium since excitation, time_ms, calcium_uM, "
                             "instead of the formula",

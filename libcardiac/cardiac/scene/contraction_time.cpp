@@ -15,10 +15,11 @@ namespace {
 constexpr double kDuration_ms = 324;        // Aróstica et al. 2025
 constexpr double kAtBeat_ms = 800;          // 75 beats a minute
 constexpr double kFastest_ms = 1000.0 / 3;  // beats below are of hearts smaller than ours
+constexpr double kShortest_ms = 200;        // below, systole is a share of the beat
 constexpr double kContractility_kPa = 65;   // that the stiffness of bridges belongs to: Genet et al. 2023
 constexpr double kDecay_ms = 50, kRise_ms = 20;  // of calcium: CalciumTransient
 
-// Of times that shorten with the beat.
+// Of calcium, whose times shorten with the beat.
 double shortening(const scene::Contraction& contraction, const scene::Time& time) {
   return time_factor(contraction, time) * std::sqrt(std::max(time.beat_ms, kFastest_ms) / kAtBeat_ms);
 }
@@ -30,7 +31,9 @@ double time_factor(const scene::Contraction& contraction, const scene::Time& tim
 }
 
 double activation_duration_ms(const scene::Contraction& contraction, const scene::Time& time) {
-  return contraction.activation_duration_ms.value_or(kDuration_ms * shortening(contraction, time));
+  const double beat = std::max(time.beat_ms, kShortest_ms),
+               share = std::min(1.0, time.beat_ms / kShortest_ms);
+  return contraction.activation_duration_ms.value_or(kDuration_ms * share * std::sqrt(beat / kAtBeat_ms));
 }
 
 BestelParameters bestel_parameters(const scene::Contraction& c, const scene::Time& time) {

@@ -6,12 +6,12 @@
 
 namespace cardiac {
 
-/// How much shorter all times of contraction are than at 75 beats a minute, contraction.time_factor as given
-/// or, where it is not: 1 down to beats of 333 ms (180 a minute), below in proportion to the beat, so that a
-/// heart of 700 a minute (a mouse) contracts and relaxes within it.
+/// How much shorter the times behind the rates of a contraction are than human ones, contraction.time_factor
+/// as given or, where it is not: 1 down to beats of 333 ms (180 a minute), below in proportion to the beat, so
+/// that a heart of 700 a minute (a mouse) contracts and relaxes within it.
 double time_factor(const scene::Contraction& contraction, const scene::Time& time);
 
-/// contraction.activation_duration_ms as given or, where it is not, 324 ms √(beat/800 ms), below beats of 333
+/// contraction.activation_duration_ms as given or, where it is not, 324 ms √(beat/800 ms), below beats of 200
 /// ms in proportion to the beat: systole shortens with the square root of the time between two beats. Source:
 /// Bazett 1920, for the QT interval.
 double activation_duration_ms(const scene::Contraction& contraction, const scene::Time& time);

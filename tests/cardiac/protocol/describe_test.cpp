@@ -105,7 +105,7 @@ TEST(KeyTable, DefaultsAreAcceptable) {
 
 TEST(KeyTable, UnitsInNamesAreStated) {
   const std::regex unit(
-      "(_(mm|ms|kPa|mmHg|mL|deg|percent|bpm)|(budget|array)_s|_per_(mm|ms|s|mL|mL2|mmHg))$");
+      "(_(mm|ms|kPa|mmHg|mL|deg|percent|bpm|uM)|(budget|array)_s|_per_(mm|ms|s|mL|mL2|mmHg))$");
   for (const auto& path : cardiac::key_paths()) {
     const auto text = cardiac::explain(path);
     EXPECT_EQ(std::regex_search(path, unit), text.find("\n  unit      ") != std::string::npos &&

@@ -197,7 +197,7 @@ TEST(Parse, OutOfRangeNamesRangeAndUnit) {
   EXPECT_THAT(refusal(guccione + "bulk_modulus_kPa = inf\n"), HasSubstr("number inf"));
   EXPECT_THAT(refusal(guccione + "viscosity_kPa_ms = -1\n"), HasSubstr("at least 0, at most 100000 kPa·ms"));
   EXPECT_THAT(refusal(kPassive + "[time]\nheart_rate_bpm = 5\n"),
-              HasSubstr("at least 20, at most 300 1/min"));
+              HasSubstr("at least 20, at most 800 1/min"));
   EXPECT_THAT(refusal(kPassive + "[[region]]\nsegments = [1, 30]\n"),
               HasSubstr("each at least 1, at most 29"));
   EXPECT_THAT(refusal(kPassive + "[[region]]\nsegments = [1, 18]\n"),

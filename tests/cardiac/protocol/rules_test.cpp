@@ -151,6 +151,8 @@ TEST(Rules, SystoleFollowsTheHeartRateUnlessItIsGiven) {
   EXPECT_NEAR(duration({"time.heart_rate_bpm=150"}), 324 / std::sqrt(2.0), 1e-9);
   EXPECT_NEAR(duration({"time.heart_rate_bpm=300"}), 162, 1e-9);
   EXPECT_NEAR(duration({"time.heart_rate_bpm=190"}), 324 * std::sqrt(75 / 190.0), 1e-9);
+  // Beyond, systole is in proportion to the beat.
+  EXPECT_NEAR(duration({"time.heart_rate_bpm=600"}), 81, 1e-9);
   EXPECT_EQ(duration({"time.heart_rate_bpm=150", "contraction.activation_duration_ms=200"}), 200);
 }
 
