@@ -70,8 +70,7 @@ polyaffine::TetMesh generate(const Protocol& protocol) {
     const IdealisedBiventricle shape = human_biventricle();
     return mesh_biventricle(shape, protocol.mesh.size_mm.value_or(default_mesh_size_mm(shape)));
   }
-  const bool human = *protocol.mesh.shape == protocol::Shape::human_lv;
-  const TruncatedEllipsoid shape = human ? human_lv() : land_ellipsoid();
+  const TruncatedEllipsoid shape = ellipsoid_of(protocol.mesh);
   return mesh_truncated_ellipsoid(shape, protocol.mesh.size_mm.value_or(default_mesh_size_mm(shape)));
 }
 

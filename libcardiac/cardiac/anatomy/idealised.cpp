@@ -69,6 +69,17 @@ void check_shape(const TruncatedEllipsoid& s) {
                                  " and " + std::to_string(s.endo_long_mm) + " mm (endo_long_mm)");
 }
 
+TruncatedEllipsoid scaled(const TruncatedEllipsoid& s, double cavity, double wall) {
+  const auto outside = [&](double endo, double epi) { return cavity * endo + wall * (epi - endo); };
+  const TruncatedEllipsoid out{.endo_short_mm = cavity * s.endo_short_mm,
+                               .endo_long_mm = cavity * s.endo_long_mm,
+                               .epi_short_mm = outside(s.endo_short_mm, s.epi_short_mm),
+                               .epi_long_mm = outside(s.endo_long_mm, s.epi_long_mm),
+                               .base_z_mm = cavity * s.base_z_mm};
+  check_shape(out);
+  return out;
+}
+
 double default_mesh_size_mm(const TruncatedEllipsoid& s) {
   return 0.52 * (s.epi_short_mm - s.endo_short_mm);
 }

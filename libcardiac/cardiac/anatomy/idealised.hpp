@@ -36,6 +36,11 @@ TruncatedEllipsoid land_ellipsoid();
 /// An unloaded human left ventricle: cavity about 75 mL, wall 10 mm, 81 mm from apex to base inside.
 TruncatedEllipsoid human_lv();
 
+/// The shape with a larger or smaller cavity and a thicker or thinner wall: endocardial semi-axes and base
+/// plane times `cavity`, epicardial semi-axes beyond them by `wall` times what they were. Factors of 1 leave
+/// every number as it is. Throws InputError as check_shape does.
+TruncatedEllipsoid scaled(const TruncatedEllipsoid& shape, double cavity, double wall);
+
 /// Throws InputError when an axis is not positive and finite, the wall has no thickness, or the base plane
 /// does not cut both ellipsoids.
 void check_shape(const TruncatedEllipsoid& shape);

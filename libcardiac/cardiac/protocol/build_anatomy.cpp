@@ -3,7 +3,6 @@
 #include <string>
 #include <utility>
 
-#include <cardiac/anatomy/idealised.hpp>
 #include <polyaffine/core/error.hpp>
 
 namespace cardiac {
@@ -22,6 +21,11 @@ void check_scheme(bool two_ventricles, const std::optional<protocol::Scheme>& sc
 }
 
 }  // namespace
+
+TruncatedEllipsoid ellipsoid_of(const protocol::Mesh& mesh) {
+  if (mesh.shape != protocol::Shape::human_lv) return land_ellipsoid();
+  return scaled(human_lv(), mesh.cavity_scale, mesh.wall_scale);
+}
 
 Anatomy build_anatomy(polyaffine::TetMesh mesh, const Protocol& protocol, const ExactGeometry& exact) {
   check_scheme(mesh.surface({kRvEndocardium}).cols() > 0, protocol.anatomy.scheme);

@@ -45,6 +45,19 @@ Table mesh_table() {
             .meaning = "target edge length of the tetrahedra of an idealised shape",
             .absent = "the shape's own size",
             .used_with = "shape"})
+      .key("cavity_scale", &Mesh::cavity_scale,
+           {.range = {0.5, 2},
+            .meaning = "factor on all lengths of the cavity of human_lv: semi-axes of the endocardium and "
+                       "height of the base; its volume changes by the third power",
+            .source = "convention: the shape as it is",
+            .used_with = "shape",
+            .used_values = {"human_lv"}})
+      .key("wall_scale", &Mesh::wall_scale,
+           {.range = {0.3, 3},
+            .meaning = "factor on the thickness of the wall of human_lv, 10 mm at the equator, outwards",
+            .source = "convention: the shape as it is",
+            .used_with = "shape",
+            .used_values = {"human_lv"}})
       .key("pressure_mmHg", &Mesh::pressure_kPa,
            {.unit = "mmHg",
             .range = {0, 60},

@@ -26,7 +26,8 @@ constexpr double mm_per_unit(LengthUnit unit) {
 struct Mesh {
   std::optional<std::string> file;  ///< either file (with its length_unit) or shape
   std::optional<Shape> shape;
-  std::optional<double> size_mm;  ///< edge length of a generated mesh; absent: the shape's own
+  std::optional<double> size_mm;            ///< edge length of a generated mesh; absent: the shape's own
+  double cavity_scale = 1, wall_scale = 1;  ///< of Shape::human_lv, see scaled
   std::optional<LengthUnit> length_unit;
   std::optional<std::string> surface_file, label_array, region_array;
   std::optional<std::vector<std::string>> surface_files;  ///< NAME=FILE, one surface each

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cardiac/anatomy/idealised.hpp>
 #include <cmath>
 #include <limits>
@@ -33,6 +34,24 @@ TEST(Idealised, VolumesEqualTheIntegralOfSections) {
 TEST(Idealised, HumanVentricleHasAPlausibleUnloadedCavity) {
   EXPECT_NEAR(exact_cavity_volume(human_lv()) / 1000, 75, 3);  // mL
   EXPECT_NEAR(human_lv().endo_long_mm + human_lv().base_z_mm, 80, 5);
+}
+
+TEST(Idealised, ScaledShapesKeepTheirWallsAndBases) {
+  const auto numbers = [](const TruncatedEllipsoid& s) {
+    return std::array{s.endo_short_mm, s.endo_long_mm, s.epi_short_mm, s.epi_long_mm, s.base_z_mm};
+  };
+  for (const auto& s : kShapes) {
+    EXPECT_EQ(numbers(scaled(s, 1, 1)), numbers(s)) << "bit for bit";
+    const TruncatedEllipsoid wide = scaled(s, 1.25, 1), thick = scaled(s, 1, 1.5);
+    EXPECT_NEAR(exact_cavity_volume(wide), 1.25 * 1.25 * 1.25 * exact_cavity_volume(s),
+                1e-12 * exact_cavity_volume(wide));
+    EXPECT_NEAR(wide.epi_short_mm - wide.endo_short_mm, s.epi_short_mm - s.endo_short_mm, 1e-12);
+    EXPECT_NEAR(wide.epi_long_mm - wide.endo_long_mm, s.epi_long_mm - s.endo_long_mm, 1e-12);
+    EXPECT_EQ(exact_cavity_volume(thick), exact_cavity_volume(s));
+    EXPECT_NEAR(thick.epi_short_mm - thick.endo_short_mm, 1.5 * (s.epi_short_mm - s.endo_short_mm), 1e-12);
+  }
+  EXPECT_THROW(scaled(human_lv(), 1, 0), InputError);
+  EXPECT_THROW(scaled(human_lv(), -1, 1), InputError);
 }
 
 TEST(Idealised, WallFunctionHasTheSignOfTheSide) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 using testing::AllOf;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
@@ -140,6 +141,20 @@ TEST(Rules, KeysThatPlayNoPartAreWarnedOf) {
   EXPECT_THAT(protocol.warnings[0], AllOf(HasSubstr("tissue.C_kPa"), HasSubstr("tissue.law = guccione")));
   EXPECT_THAT(parsed(kPassive, {"mesh.length_unit=mm"}).warnings, SizeIs(1));
   EXPECT_THAT(parsed(kPassive, {"tissue.mu_kPa=2"}).warnings, IsEmpty());
+}
+
+TEST(Rules, ScalesBelongToTheHumanLeftVentricle) {
+  for (const std::string key : {"mesh.cavity_scale", "mesh.wall_scale"}) {
+    EXPECT_THAT(parsed(kPassive, {key + "=1.2"}).warnings, IsEmpty());
+    for (const char* shape : {"land_ellipsoid", "human_biventricle"})
+      EXPECT_THAT(parsed(kPassive, {key + "=1.2", std::string("mesh.shape=") + shape}).warnings,
+                  ElementsAre(HasSubstr(key + " plays no part")))
+          << shape;
+    EXPECT_THAT(refusal(kPassive, {key + "=0"}), HasSubstr(key));
+    EXPECT_THAT(refusal(kPassive, {key + "=10"}), HasSubstr(key));
+  }
+  EXPECT_EQ(parsed(kPassive).mesh.cavity_scale, 1);
+  EXPECT_EQ(parsed(kPassive).mesh.wall_scale, 1);
 }
 
 TEST(Rules, SystoleFollowsTheHeartRateUnlessItIsGiven) {
