@@ -7,8 +7,8 @@
 namespace cardiac {
 
 /// How much shorter the times behind the rates of a contraction are than human ones, contraction.time_factor
-/// as given or, where it is not: 1 down to beats of 333 ms (180 a minute), below in proportion to the beat, so
-/// that a heart of 700 a minute (a mouse) contracts and relaxes within it.
+/// as given or, where it is not: 1 down to beats of 333 ms (180 a minute), below in proportion to the beat,
+/// so that a heart of 700 a minute (a mouse) contracts and relaxes within it.
 double time_factor(const scene::Contraction& contraction, const scene::Time& time);
 
 /// contraction.activation_duration_ms as given or, where it is not, 324 ms √(beat/800 ms), below beats of 200
