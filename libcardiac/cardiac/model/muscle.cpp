@@ -16,8 +16,8 @@ namespace {
 
 constexpr int kMost = kMostSarcomereStates;
 using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMost, kMost>;
-constexpr int kSerialPoints = 4096;  // that one thread computes sooner than it wakes another
 using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMost, 1>;
+constexpr int kSerialPoints = 4096;  // that one thread computes sooner than it wakes another
 
 template <class Work>
 void for_each(bool parallel, int count, const Work& work) {

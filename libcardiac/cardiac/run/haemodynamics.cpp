@@ -78,8 +78,14 @@ std::optional<Haemodynamics> haemodynamics(const HeartPath& path, const Scene& s
   h.arterial_systolic_mmHg = systolic / kPa_per_mmHg;
   h.arterial_diastolic_mmHg = diastolic / kPa_per_mmHg;
   h.venous_mean_mmHg = before / beat / kPa_per_mmHg;
-  for (std::size_t k = 1; k < path.steps.size(); ++k) {
-    const HeartState &a = path.steps[k - 1], &b = path.steps[k];
+  // As catheters sample; beside valves that close steps of some µs would tell what is left of Newton's
+  // method.
+  constexpr double kSampled_ms = 1;
+  for (std::size_t k = 1, from = 0; k < path.steps.size(); ++k) {
+    const HeartState& b = path.steps[k];
+    while (from + 1 < k && b.time_ms - path.steps[from + 1].time_ms >= kSampled_ms) ++from;
+    const HeartState& a = path.steps[from];
+    if (b.time_ms - a.time_ms < kSampled_ms) continue;
     const double rise = b.pressures_kPa[cavity] - a.pressures_kPa[cavity];
     const double rate = rise / kPa_per_mmHg / (b.time_ms - a.time_ms) * ms_per_s;
     h.dp_dt_max_mmHg_per_s = std::max(h.dp_dt_max_mmHg_per_s, rate);
