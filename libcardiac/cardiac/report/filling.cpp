@@ -23,7 +23,7 @@ constexpr const char* kRight = "#d55e00";
 constexpr const char* kKlotz = "#666666";
 
 std::string stroke(const std::string& colour, const std::string& more = "") {
-  return "fill=\"none\" stroke=\"" + colour + "\" stroke-width=\"3\" stroke-linejoin=\"round\"" + more;
+  return "stroke=\"" + colour + "\" stroke-width=\"3\" stroke-linejoin=\"round\"" + more;
 }
 
 }  // namespace

@@ -1,6 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <regex>
+#include <set>
+
 #include <cardiac/report/figures.hpp>
 #include <cardiac/report/filling.hpp>
 #include <cardiac/report/page.hpp>
@@ -39,6 +42,23 @@ TEST(Filling, IsATableBesideKlotz) {
               ::testing::AllOf(HasSubstr("ventricle,pressure_mmHg,volume_mL,klotz_volume_mL\n"),
                                HasSubstr("lv,0,75,64.8\n"), HasSubstr("lv,10,120.1,120\n"),
                                HasSubstr("rv,5,130.2,\n")));
+}
+
+// Browsers refuse a drawing in which an element has an attribute twice.
+TEST(Filling, NoElementOfAFigureHasAnAttributeTwice) {
+  BeatResult r = test::synthetic_biventricle();
+  r.unloading = unloading();
+  const std::regex element("<[a-z]+( [^>]*)>"), attribute(" ([a-zA-Z:-]+)=\"[^\"]*\"");
+  int elements = 0;
+  for (const Figure& figure : figures(r, test::synthetic_info()))
+    for (std::sregex_iterator e(figure.svg.begin(), figure.svg.end(), element), end; e != end;
+         ++e, ++elements) {
+      const std::string attributes = (*e)[1];
+      std::set<std::string> names;
+      for (std::sregex_iterator a(attributes.begin(), attributes.end(), attribute); a != end; ++a)
+        EXPECT_TRUE(names.insert((*a)[1]).second) << figure.file << ": " << e->str();
+    }
+  EXPECT_GT(elements, 1000);
 }
 
 TEST(Filling, IsToldByFiguresPageAndSummary) {
