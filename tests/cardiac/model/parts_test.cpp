@@ -39,11 +39,14 @@ TEST(Parts, PlanAndBuildersAgreeForEveryShippedProtocol) {
   for (const auto& file : std::filesystem::directory_iterator(PROJECT_DIR "/protocols")) {
     if (file.path().extension() != ".toml") continue;
     SCOPED_TRACE(file.path().filename().string());
-    const auto& run = testing::shipped_run(file.path().stem().string());
+    const Protocol protocol = testing::shipped_protocol(file.path().stem().string(), {"time.max_beats=1"});
+    // Idealised shapes are meshed by the program; what they are built of is that of the healthy ventricle.
+    if (protocol.mesh.shape) continue;
+    const testing::HeartRun run(protocol);
     expect_agreement(run.protocol, counted(run.ventricle, run.path));
     ++protocols;
   }
-  EXPECT_GE(protocols, 3);
+  EXPECT_GE(protocols, 10);
 }
 
 TEST(Parts, PassiveInflationBuildsNothingOfABeat) {
