@@ -80,6 +80,7 @@ std::vector<Table> heart_tables();
 std::vector<Table> model_tables();
 std::vector<Table> beat_tables();
 Table boundary_table();
+Table contraction_table();
 std::vector<Table> circulation_tables();
 std::vector<Table> network_tables();
 

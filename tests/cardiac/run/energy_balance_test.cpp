@@ -6,10 +6,10 @@
 #include <cmath>
 #include <functional>
 
-#include <cardiac/anatomy/structured_ellipsoid.hpp>
 #include <cardiac/tissue/active_stress.hpp>
 
 #include "polyaffine/system/block_body.hpp"
+#include "support/contracting_heart.hpp"
 #include "support/heart_run.hpp"
 
 namespace cardiac {
@@ -159,15 +159,7 @@ TEST(EnergyBalance, WorkOnTheBloodIsTheStrokeWork) {
 
 // A coarse beat.
 Scene beating() {
-  static const auto heart = [] {
-    CurvedMesh mesh = structured_ellipsoid(human_lv(), {8, 16, 1});
-    return std::make_shared<const Anatomy>(make_anatomy(mesh.mesh, {.midpoints = mesh.midpoints}));
-  }();
-  Scene out;
-  out.heart = heart;
-  out.fibres.emplace();
-  out.activation.emplace();
-  out.contraction.emplace();
+  Scene out = testing::contracting_heart();
   out.circulation.emplace();
   out.time.max_beats = 1;
   return out;

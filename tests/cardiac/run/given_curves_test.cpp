@@ -4,25 +4,18 @@
 #include <cmath>
 
 #include <cardiac/activation/activation.hpp>
-#include <cardiac/anatomy/structured_ellipsoid.hpp>
 #include <cardiac/core/given_curve.hpp>
 #include <cardiac/core/units.hpp>
 #include <cardiac/run/simulate.hpp>
+
+#include "support/contracting_heart.hpp"
 
 namespace cardiac {
 namespace {
 
 // A coarse human left ventricle that beats once in a windkessel, and what its cavity did.
 Scene beating() {
-  static const auto heart = [] {
-    CurvedMesh mesh = structured_ellipsoid(human_lv(), {8, 16, 1});
-    return std::make_shared<const Anatomy>(make_anatomy(mesh.mesh, {.midpoints = mesh.midpoints}));
-  }();
-  Scene out;
-  out.heart = heart;
-  out.fibres.emplace();
-  out.activation.emplace();
-  out.contraction.emplace();
+  Scene out = testing::contracting_heart();
   out.time.relative_tolerance = 1e-4;
   out.output.interval_ms = 5;
   return out;

@@ -3,27 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
-#include <cardiac/anatomy/structured_ellipsoid.hpp>
 #include <cardiac/circulation/network.hpp>
 #include <cardiac/core/units.hpp>
 #include <cardiac/run/simulate.hpp>
 #include <cardiac/scene/loops.hpp>
 #include <polyaffine/core/error.hpp>
 
+#include "support/contracting_heart.hpp"
+
 namespace cardiac {
 namespace {
 
 // A coarse human left ventricle that beats.
 Scene beating() {
-  static const auto heart = [] {
-    CurvedMesh mesh = structured_ellipsoid(human_lv(), {8, 16, 1});
-    return std::make_shared<const Anatomy>(make_anatomy(mesh.mesh, {.midpoints = mesh.midpoints}));
-  }();
-  Scene out;
-  out.heart = heart;
-  out.fibres.emplace();
-  out.activation.emplace();
-  out.contraction.emplace();
+  Scene out = testing::contracting_heart();
   out.circulation.emplace();
   return out;
 }

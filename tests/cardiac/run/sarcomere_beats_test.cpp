@@ -3,9 +3,10 @@
 #include <cmath>
 #include <memory>
 
-#include <cardiac/anatomy/structured_ellipsoid.hpp>
 #include <cardiac/core/units.hpp>
 #include <cardiac/run/simulate.hpp>
+
+#include "support/contracting_heart.hpp"
 
 namespace cardiac {
 namespace {
@@ -14,15 +15,7 @@ using scene::ContractionModel;
 
 // A coarse human left ventricle that beats, with a tension that feels the fibre.
 Scene beating(ContractionModel model = ContractionModel::land_2017) {
-  static const auto heart = [] {
-    CurvedMesh mesh = structured_ellipsoid(human_lv(), {8, 16, 1});
-    return std::make_shared<const Anatomy>(make_anatomy(mesh.mesh, {.midpoints = mesh.midpoints}));
-  }();
-  Scene out;
-  out.heart = heart;
-  out.fibres.emplace();
-  out.activation.emplace();
-  out.contraction.emplace();
+  Scene out = testing::contracting_heart();
   out.contraction->model = model;
   out.circulation.emplace();
   out.time.max_beats = 3;

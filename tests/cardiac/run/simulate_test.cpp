@@ -5,11 +5,11 @@
 
 #include <cmath>
 
-#include <cardiac/anatomy/structured_ellipsoid.hpp>
 #include <cardiac/core/units.hpp>
 #include <cardiac/model/coupled_heart.hpp>
 #include <polyaffine/core/error.hpp>
 
+#include "support/contracting_heart.hpp"
 #include "support/heart_run.hpp"
 
 namespace cardiac {
@@ -19,15 +19,7 @@ using ::testing::HasSubstr;
 
 // A scene put together in C++: a coarse human left ventricle that beats.
 Scene beating() {
-  static const auto heart = [] {
-    CurvedMesh mesh = structured_ellipsoid(human_lv(), {8, 16, 1});
-    return std::make_shared<const Anatomy>(make_anatomy(mesh.mesh, {.midpoints = mesh.midpoints}));
-  }();
-  Scene out;
-  out.heart = heart;
-  out.fibres.emplace();
-  out.activation.emplace();
-  out.contraction.emplace();
+  Scene out = testing::contracting_heart();
   out.circulation.emplace();
   out.time.max_beats = 1;
   return out;
